@@ -2,7 +2,7 @@
 //!
 //! Pictures are drawn from it: what faces what is worked out in one place, the scene.
 
-use pounding::scene::{Building, ContactPair, Face, Link, Scene, Side};
+use pounding::scene::{Building, ContactPair, Face, Link, Place, Scene, Share, Side};
 use serde::Serialize;
 
 /// As `--layout` writes it, and in the data of the page.
@@ -88,10 +88,20 @@ fn contact(scene: &Scene, pair: &ContactPair) -> Contact {
         meeting: pair.meeting(scene),
         left: surface(pair.left),
         right: surface(pair.right),
-        row: pair.row().map(|share| (share.side.name(), share.floor + 1, share.weight)).collect(),
+        row: pair.row(scene).filter_map(floor_of).collect(),
         gap: pair.gap,
         law: pair.law.kind.info().name,
     }
+}
+
+/// The part of a floor, counted from 1, in the row of a contact; 0 is the foundation. What leans with a foundation is left out.
+fn floor_of(share: Share) -> Option<(&'static str, usize, f64)> {
+    let floor = match share.place {
+        Place::Floor(floor) => floor + 1,
+        Place::Foundation => 0,
+        Place::Rotation => return None,
+    };
+    Some((share.side.name(), floor, share.weight))
 }
 
 fn surface(face: Face) -> Surface {
@@ -103,8 +113,10 @@ fn surface(face: Face) -> Surface {
 }
 
 fn device(scene: &Scene, link: &Link) -> Device {
-    let end = |side: Side, floor: Option<usize>| {
-        floor.map_or(Surface::Wall, |floor| Surface::Floor { side: side.name(), floor: floor + 1 })
+    let end = |side: Side, end: Option<Place>| match end {
+        None => Surface::Wall,
+        Some(Place::Floor(floor)) => Surface::Floor { side: side.name(), floor: floor + 1 },
+        Some(Place::Foundation | Place::Rotation) => Surface::Floor { side: side.name(), floor: 0 },
     };
     let spring = if link.slip.is_some() { Part::Friction } else { Part::Spring };
     let parts = [(spring, link.stiffness), (Part::Dashpot, link.dashpot)];

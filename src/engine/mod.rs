@@ -86,7 +86,7 @@ pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::instant::Instant;
 pub use crate::engine::output::outputs::{ContactOutput, ContactPoint, ContactRates};
 pub use crate::engine::output::outputs::{EnergyOutput, EnergyPoint, EnergyRates};
-pub use crate::engine::output::outputs::{LinkOutput, Output, Rates, YieldingOf};
+pub use crate::engine::output::outputs::{FoundationOutput, LinkOutput, Output, Rates, YieldingOf};
 pub use crate::engine::output::point::Point;
 pub use crate::engine::output::point_rates::PointRates;
 pub use crate::engine::quantities::rows::PeakOf;

@@ -174,7 +174,7 @@ impl Workspace {
 
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
-        let floors = if model.system.floor_forces { model.system.structure.modes_of_both() } else { 0 };
+        let floors = if model.system.floor_forces { model.system.structure.floors_of_both() } else { 0 };
         let log = if model.logs_flights() { PeakLog::new(lanes, floors) } else { PeakLog::new(0, 0) };
         Workspace {
             buffers: model.buffers(),

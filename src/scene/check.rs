@@ -5,6 +5,7 @@
 use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
+use super::foundation::Place;
 use super::link::Link;
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
@@ -93,6 +94,7 @@ impl Checker {
         }
         building.yielding.iter().for_each(|yielding| self.yielding(path, yielding, floors));
         self.p_delta(path, building);
+        self.foundation(path, building);
     }
 
     fn yielding(&mut self, path: &str, Yielding { force, ratio }: &Yielding, floors: usize) {
@@ -222,8 +224,11 @@ impl Checker {
     }
 
     fn link(&mut self, path: &str, link: &Link, scene: &Scene) {
-        for (side, floor, _) in link.ends() {
-            self.floor(path, (side, floor + 1, "floor"), scene);
+        for (side, place, _) in link.ends() {
+            match place {
+                Place::Floor(floor) => self.floor(path, (side, floor + 1, "floor"), scene),
+                Place::Foundation | Place::Rotation => self.held_foundation(path, side, scene),
+            }
         }
         self.number(format_args!("{path}.stiffness"), link.stiffness, rule::LINK_STIFFNESS);
         self.number(format_args!("{path}.dashpot"), link.dashpot, rule::DASHPOT);
@@ -238,6 +243,17 @@ impl Checker {
         if let Some(expected) = needs_spring.filter(|_| link.stiffness == 0.0) {
             self.refuse(format_args!("{path}.stiffness"), problem::number(link.stiffness), expected);
         }
+    }
+
+    /// Whether a link at floor 0 has something to move.
+    fn held_foundation(&mut self, path: &str, side: Side, scene: &Scene) {
+        let why = match &scene.building(side).foundation {
+            Some(foundation) if foundation.sway.is_some() => return,
+            Some(_) => "that of the building does not sway",
+            None => "the building has none: the ground is a wall",
+        };
+        let expected = format!("a floor of the {side} building, counted from 1; 0 is the foundation, and {why}");
+        self.refuse(format_args!("{path}.{side}_floor"), "0", expected);
     }
 
     fn pairs_differ(&mut self, contacts: &[ContactPair]) {

@@ -1,6 +1,7 @@
 //! The scene as data, field by field. Contacts: `contact_pair`.
 
 use super::contact_pair::ContactPair;
+use super::foundation::Foundation;
 use super::levels::Heights;
 use super::link::Link;
 use super::problem::{Problem, number};
@@ -62,6 +63,8 @@ pub struct Building {
     pub yielding: Option<Yielding>,
     /// Gravity on storeys that lean; `None` where a scene leaves it out.
     pub p_delta: Option<PDelta>,
+    /// What the building stands on, where that is not the ground itself.
+    pub foundation: Option<Foundation>,
 }
 
 /// Bilinear storeys with kinematic hardening.
@@ -102,6 +105,7 @@ impl Building {
             heights: None,
             yielding: None,
             p_delta: None,
+            foundation: None,
         }
     }
 }
@@ -192,6 +196,7 @@ impl Building {
             heights: None,
             yielding: None,
             p_delta: None,
+            foundation: None,
         }
     }
 

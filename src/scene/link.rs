@@ -1,14 +1,15 @@
 //! A device between two floors, or between a floor and the ground.
 
+use super::foundation::Place;
 use super::side::Side;
 
-/// A link as a scene has it: a spring and a dashpot side by side. Floors are counted from 0.
+/// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// The floor of the left building; `None`: the ground.
-    pub left: Option<usize>,
-    /// The floor of the right building; `None`: the ground.
-    pub right: Option<usize>,
+    /// Where it is held on the left building; `None`: on the ground.
+    pub left: Option<Place>,
+    /// Where it is held on the right building; `None`: on the ground.
+    pub right: Option<Place>,
     /// N/m.
     pub stiffness: f64,
     /// N s/m.
@@ -27,11 +28,11 @@ pub struct Slip {
 }
 
 impl Link {
-    /// Its floors, with the weights of their displacements in e = u_left - u_right, which is positive when the ends have come
+    /// Its ends on buildings, with the weights of their displacements in e = u_left - u_right, which is positive when the ends have come
     /// nearer.
-    pub fn ends(&self) -> impl Iterator<Item = (Side, usize, f64)> + use<> {
-        let left = self.left.map(|floor| (Side::Left, floor, 1.0));
-        left.into_iter().chain(self.right.map(|floor| (Side::Right, floor, -1.0)))
+    pub fn ends(&self) -> impl Iterator<Item = (Side, Place, f64)> + Clone + use<> {
+        let left = self.left.map(|place| (Side::Left, place, 1.0));
+        left.into_iter().chain(self.right.map(|place| (Side::Right, place, -1.0)))
     }
 
     /// Whether it is between the buildings.

@@ -2,6 +2,7 @@
 
 use super::contact_pair::{ContactPair, Face, Share};
 use super::data::{Building, Scene};
+use super::foundation::Place;
 use super::link::Link;
 use super::side::Side;
 use crate::figures::six_decimals;
@@ -19,9 +20,9 @@ impl Scene {
 impl ContactPair {
     /// Reduced mass, kg: the inverse of the sum of weight^2 / mass over the row.
     pub fn reduced_mass(&self, scene: &Scene) -> f64 {
-        let of_share = |share: Share| scene.building(share.side).mass[share.floor] / (share.weight * share.weight);
+        let of_share = |share: Share| scene.building(share.side).inertia(share.place) / (share.weight * share.weight);
         // A floor with next to no share is as good as infinitely heavy.
-        let masses = self.row().map(of_share).filter(|mass| mass.is_finite());
+        let masses = self.row(scene).map(of_share).filter(|mass| mass.is_finite());
         masses.reduce(|one, other| one * other / (one + other)).unwrap_or(f64::INFINITY)
     }
 
@@ -29,10 +30,10 @@ impl ContactPair {
     pub fn at_start(&self, scene: &Scene) -> (f64, f64) {
         let displacement = |share: &Share| {
             let all = &scene.building(share.side).initial_displacement;
-            share.weight * all.get(share.floor).copied().unwrap_or(0.0)
+            share.weight * Building::at_start(all, share.place)
         };
         let (moved, size) = self
-            .row()
+            .row(scene)
             .map(|share| displacement(&share))
             .fold((0.0, 0.0_f64), |(sum, size), u| (sum + u, size + u.abs()));
         (moved - self.gap, size + self.gap.abs())
@@ -61,16 +62,20 @@ impl ContactPair {
 impl Link {
     /// What it is between, from left to right, for a table: "left 2 | right 2", "ground | right 1".
     pub fn brief(&self) -> String {
-        let name = |side: Side, floor: Option<usize>| {
-            floor.map_or("ground".to_owned(), |floor| Face::Floor(side, floor + 1).brief())
+        let name = |side: Side, end: Option<Place>| match end {
+            None => "ground".to_owned(),
+            Some(Place::Floor(floor)) => Face::Floor(side, floor + 1).brief(),
+            Some(Place::Foundation | Place::Rotation) => format!("{side} foundation"),
         };
         format!("{} | {}", name(Side::Left, self.left), name(Side::Right, self.right))
     }
 
     /// What it is between, for a person: "between left floor 2 and right floor 2", "between left floor 2 and the ground".
     pub fn meeting(&self, scene: &Scene) -> String {
-        let name = |side: Side, floor: Option<usize>| {
-            floor.map_or("the ground".to_owned(), |floor| Face::Floor(side, floor + 1).name(scene))
+        let name = |side: Side, end: Option<Place>| match end {
+            None => "the ground".to_owned(),
+            Some(Place::Floor(floor)) => Face::Floor(side, floor + 1).name(scene),
+            Some(Place::Foundation | Place::Rotation) => format!("the {side} foundation"),
         };
         let (left, right) = (name(Side::Left, self.left), name(Side::Right, self.right));
         format!("between {left} and {right}").trim_end_matches(',').to_owned()

@@ -50,12 +50,13 @@
 //! left.mass[2] = -3.65: expected a finite mass > 0 kg
 //! left.stiffness = [2910.0]: expected 2 numbers, one per storey, not 1
 //! right.mas = [3.65]: expected a known key (mass, stiffness, stiffness_matrix, damping, initial_displacement, \
-//! initial_velocity, height, base_level, yield_force, post_yield_ratio, p_delta, gravity_load, collapse_drift_ratio); did you mean mass?");
+//! initial_velocity, height, base_level, yield_force, post_yield_ratio, p_delta, gravity_load, collapse_drift_ratio, \
+//! foundation); did you mean mass?");
 //! ```
 //!
 //! Where things are: `data` is the scene, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
-//! numbers are allowed, `check` which shapes and combinations, `read`, `read_contacts` and `read_links` go through the keys
-//! of the file, `levels` adds up heights, `p_delta` is gravity on storeys that lean, `facing` makes contacts of them,
+//! numbers are allowed, `check` which shapes and combinations, `read`, `read_contacts`, `read_links` and `read_foundation` go through the keys
+//! of the file, `levels` adds up heights, `p_delta` is gravity on storeys that lean, `foundation` the soil under a building, `facing` makes contacts of them,
 //! `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what is often written instead of
 //! TOML, `units` converts masses and forces, `files` loads scenes with their records,
 //! `lines` says on which lines its paths stand.
@@ -67,6 +68,7 @@ mod data;
 mod document;
 mod facing;
 mod files;
+mod foundation;
 mod identifier;
 pub mod law_key;
 mod levels;
@@ -78,6 +80,7 @@ mod p_delta;
 mod problem;
 mod read;
 mod read_contacts;
+mod read_foundation;
 mod read_links;
 pub mod rule;
 mod side;
@@ -88,6 +91,7 @@ pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
 pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
+pub use foundation::{Foundation, FoundationKey, Place, Places, Soil};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
 pub use lines::lines;
 pub use link::{Link, Slip};

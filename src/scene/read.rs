@@ -6,7 +6,7 @@ use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
 use super::units::{self, Units};
-use super::{check, read_contacts, read_links, rule};
+use super::{check, read_contacts, read_foundation, read_links, rule};
 use std::collections::{HashMap, HashSet};
 
 impl Scene {
@@ -165,8 +165,19 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     let heights = heights(&mut section);
     let yielding = yielding(&mut section, &stiffness, units);
     let p_delta = p_delta(&mut section, yielding.is_some(), mass.len(), units);
+    let foundation = read_foundation::of_building(&mut section, units);
     section.close(KEY);
-    Building { stiffness, damping, initial_displacement, initial_velocity, heights, yielding, p_delta, mass }
+    Building {
+        stiffness,
+        damping,
+        initial_displacement,
+        initial_velocity,
+        heights,
+        yielding,
+        p_delta,
+        foundation,
+        mass,
+    }
 }
 
 fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Units) -> Option<PDelta> {

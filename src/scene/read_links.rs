@@ -1,6 +1,7 @@
 //! The keys of links: `[[link]]`, with its two ends, its spring and its dashpot.
 
 use super::document::{Item, KEY, Section};
+use super::foundation::Place;
 use super::link::{Link, Slip};
 use super::side::Side;
 use super::units::Units;
@@ -55,13 +56,13 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
     }
 }
 
-/// The floors on the left and on the right, counted from 0; `None` is the ground, as a wall opposite of a floor.
-fn ends(section: &mut Section<'_>) -> [Option<usize>; 2] {
+/// The ends on the left and on the right; `None` is the ground, as a wall opposite of a floor.
+fn ends(section: &mut Section<'_>) -> [Option<Place>; 2] {
     let (floors, wall) = (FLOORS.map(|key| section.get(key)), section.get("wall"));
     match (&floors, &wall) {
         ([None, None], _) => {
             section.missing(FLOORS[0], &format!("{FLOOR}, and right_floor, or one of them and a wall"));
-            return [Some(0), None];
+            return [Some(Place::Floor(0)), None];
         }
         ([Some(_), Some(_)], Some(wall)) => wall.refuse("no wall beside left_floor and right_floor: two ends only"),
         ([Some(_), Some(_)], None) => {}
@@ -74,14 +75,11 @@ fn ends(section: &mut Section<'_>) -> [Option<usize>; 2] {
             }
         }
     }
-    floors.map(|floor| floor.map(|item| index(&item)))
+    floors.map(|floor| floor.map(|item| place(&item)))
 }
 
-/// From the number of a floor, counted from 1.
-fn index(item: &Item<'_>) -> usize {
-    let Some(number) = item.whole() else { return 0 };
-    number.checked_sub(1).unwrap_or_else(|| {
-        item.refuse(format!("{FLOOR}: below the first storey there is no foundation, and the ground is a wall"));
-        0
-    })
+/// From the number of a floor, counted from 1; 0 is the foundation.
+fn place(item: &Item<'_>) -> Place {
+    let number = item.whole().unwrap_or(1);
+    number.checked_sub(1).map_or(Place::Foundation, Place::Floor)
 }

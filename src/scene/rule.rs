@@ -80,6 +80,24 @@ pub const MASS: Rule =
 /// `stiffness` of a storey, N/m.
 pub const STOREY_STIFFNESS: Rule =
     Rule { expected: "a finite stiffness > 0 N/m", in_kn_t: Some("a finite stiffness > 0 kN/m"), holds: |k| k > 0.0 };
+/// `inertia` of a foundation, kg m2.
+pub const MOMENT_OF_INERTIA: Rule = Rule {
+    expected: "a finite moment of inertia > 0 kg m2",
+    in_kn_t: Some("a finite moment of inertia > 0 t m2"),
+    holds: |inertia| inertia > 0.0,
+};
+/// `rocking.stiffness` of a foundation, N m per radian.
+pub const ROCKING_STIFFNESS: Rule = Rule {
+    expected: "a finite stiffness > 0 N m/rad",
+    in_kn_t: Some("a finite stiffness > 0 kN m/rad"),
+    holds: |k| k > 0.0,
+};
+/// `rocking.dashpot` of a foundation, N m s per radian.
+pub const ROCKING_DASHPOT: Rule = Rule {
+    expected: "a finite dashpot >= 0 N m s/rad",
+    in_kn_t: Some("a finite dashpot >= 0 kN m s/rad"),
+    holds: |c| c >= 0.0,
+};
 /// `yield_force` of a storey, N; infinite ones are allowed as well, by the file and by the FMU's parameters.
 pub const YIELD_FORCE: Rule = Rule {
     expected: "a force > 0 N, or inf for a storey that stays elastic",

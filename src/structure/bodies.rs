@@ -1,16 +1,18 @@
-//! Bodies: floors whose modes are solved together. Each building is a body by itself; a link between the buildings makes
-//! one body of both.
+//! Bodies: floors, and the foundations below them, whose modes are solved together. Each building is a body by itself; a link
+//! between the buildings makes one body of both.
 //!
 //! ```text
 //! M u'' + (C + sum c w w') u' + (K + sum k w w') u = -M 1 ground acceleration + ...
 //! ```
 //!
 //! with K and C of each building as they are without links, and w the row of each link. K has the factor R'R whose lines
-//! are those of the buildings and sqrt(k) w' of the links.
+//! are those of the buildings and sqrt(k) w' of the links. A building on soil has the rows of its foundation after those of its
+//! floors (`soil.rs`); the ground does not push the one of its rotation.
 
 use super::floors::Floors;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite, solve, stiffness_factor};
-use crate::scene::{Building, Link, Side};
+use super::soil;
+use crate::scene::{Building, Link, Place, Places, Side};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -21,11 +23,11 @@ pub struct Body {
     pub modes: Modes,
     /// Its modes in a modal vector.
     pub range: Range<usize>,
-    /// Its floors in a vector of all floors.
+    /// Its floors and foundations in a vector of all floors.
     pub lanes: Range<usize>,
     /// Its buildings.
     pub buildings: Vec<Part>,
-    /// Whether links act on it.
+    /// Whether links or soil act on it.
     pub is_linked: bool,
 }
 
@@ -33,8 +35,9 @@ pub struct Body {
 #[derive(Clone, Debug)]
 pub struct Part {
     pub side: Side,
-    /// Its floors among those of the body.
+    /// Its floors among the rows of the body; those of its foundation follow.
     pub floors: Range<usize>,
+    pub places: Places,
 }
 
 impl Body {
@@ -53,20 +56,22 @@ impl Body {
         for sides in sides {
             let (mut parts, mut count) = (Vec::new(), 0);
             for &side in &sides {
-                let own = buildings[side as usize].mass.len();
-                parts.push(Part { side, floors: count..count + own });
+                let places = Places::of(buildings[side as usize]);
+                let (first, own) = (count, places.count());
+                parts.push(Part { side, floors: first..first + places.floors, places });
                 count += own;
             }
             let own = links.iter().filter(|link| link.ends().any(|(side, ..)| sides.contains(&side)));
             let own: Vec<&Link> = own.collect();
-            let modes = match own.is_empty() {
-                true => alone[sides[0] as usize].clone(),
-                false => linked_modes((buildings, alone), &parts, &own).map_err(|error| (sides[0], error))?,
+            let is_linked = !own.is_empty() || sides.iter().any(|side| buildings[*side as usize].foundation.is_some());
+            let modes = match is_linked {
+                false => alone[sides[0] as usize].clone(),
+                true => linked_modes((buildings, alone), &parts, &own).map_err(|error| (sides[0], error))?,
             };
             let first_lane = floors.lane(sides[0] as usize, 0);
             let lanes = first_lane..first_lane + count;
             let range = first..first + count;
-            bodies.push(Body { modes, range, lanes, buildings: parts, is_linked: !own.is_empty() });
+            bodies.push(Body { modes, range, lanes, buildings: parts, is_linked });
             first += count;
         }
         Ok(bodies)
@@ -105,54 +110,74 @@ impl Body {
         self.buildings.iter().find(|part| part.side == side).map_or(0, |part| part.floors.start) + floor
     }
 
-    /// The drifts of the storeys below all floors over the modes: the row of a floor less that of the one below it.
-    pub fn drift(&self, row: usize, mode: usize) -> f64 {
-        let shape = &self.modes.shape;
-        match self.buildings.iter().any(|part| part.floors.start == row) {
-            true => shape[(row, mode)],
-            false => shape[(row, mode)] - shape[(row - 1, mode)],
-        }
+    /// The row of a displacement of one of its buildings, where there is one.
+    pub fn row_of(&self, side: Side, place: Place) -> Option<usize> {
+        let part = self.buildings.iter().find(|part| part.side == side)?;
+        Some(part.floors.start + part.places.number(place)?)
+    }
+
+    /// The drift of a storey of one of its buildings over the modes.
+    pub fn drift(&self, side: Side, storey: usize, mode: usize) -> f64 {
+        let part = self.buildings.iter().find(|part| part.side == side);
+        let weights = part.into_iter().flat_map(|part| part.places.drift(storey));
+        let weighted = |(place, weight)| Some(weight * self.modes.shape[(self.row_of(side, place)?, mode)]);
+        weights.filter_map(weighted).sum()
     }
 }
 
-/// The modes of buildings with links between them or to the ground.
+/// The modes of buildings on soil, or with links between them or to the ground.
 fn linked_modes(
     (buildings, alone): ([&Building; 2], &[Modes; 2]),
     parts: &[Part],
     links: &[&Link],
 ) -> Result<Modes, NotPositiveDefinite> {
-    let count: usize = parts.iter().map(|part| part.floors.len()).sum();
+    let count: usize = parts.iter().map(|part| part.places.count()).sum();
     let mut factor = DMatrix::zeros(count + links.len(), count);
     let mut mass = DVector::zeros(count);
-    for Part { side, floors } in parts {
-        let (building, size) = (buildings[*side as usize], (floors.len(), floors.len()));
-        let own = stiffness_factor(&building.net_stiffness())?;
-        factor.view_mut((floors.start, floors.start), size).copy_from(&own);
-        mass.rows_mut(floors.start, floors.len()).copy_from_slice(&building.mass);
+    let mut pushed = mass.clone();
+    for Part { side, floors, places } in parts {
+        let (building, first, count) = (buildings[*side as usize], floors.start, places.count());
+        let own = match building.foundation {
+            None => stiffness_factor(&building.net_stiffness())?,
+            Some(_) => soil::factor_on_soil(building)?,
+        };
+        factor.view_mut((first, first), (count, count)).copy_from(&own);
+        mass.rows_mut(first, count).copy_from_slice(&soil::inertias(building, places));
+        pushed.rows_mut(first, count).copy_from(&mass.rows(first, count));
+        // The ground turns no foundation.
+        places.number(Place::Rotation).iter().for_each(|row| pushed[first + row] = 0.0);
     }
-    let first = |side: Side| parts.iter().find(|part| part.side == side).map_or(0, |part| part.floors.start);
+    let row_of = |side: Side, place: Place| {
+        let part = parts.iter().find(|part| part.side == side)?;
+        Some(part.floors.start + part.places.number(place)?)
+    };
+    let ends = |link: &Link| link.ends().filter_map(|(side, place, weight)| Some((row_of(side, place)?, weight)));
     for (line, link) in (count..).zip(links) {
-        link.ends().for_each(|(side, floor, w)| factor[(line, first(side) + floor)] = link.stiffness.sqrt() * w);
+        ends(link).for_each(|(row, w)| factor[(line, row)] = link.stiffness.sqrt() * w);
     }
     let (omega, shape) = solve(&mass, &factor)?;
     let mut damping = DMatrix::zeros(count, count);
-    for Part { side, floors } in parts {
-        let modes = &alone[*side as usize];
+    for part in parts {
+        let (modes, floors) = (&alone[part.side as usize], &part.floors);
         let weighted =
             DMatrix::from_fn(floors.len(), floors.len(), |i, m| mass[floors.start + i] * modes.shape[(i, m)]);
-        let between = weighted.tr_mul(&shape.rows(floors.start, floors.len()));
+        let between = weighted.tr_mul(&soil::beyond_foundation(part, &shape));
         damping += between.tr_mul(&(modes.damping.matrix() * &between));
+        for (place, soil) in soil::springs(buildings[part.side as usize]) {
+            let Some(row) = row_of(part.side, place) else { continue };
+            damping += soil.dashpot * shape.row(row).transpose() * shape.row(row);
+        }
     }
     for link in links {
         let mut row = DVector::zeros(count);
-        link.ends().for_each(|(side, floor, w)| row += w * shape.row(first(side) + floor).transpose());
+        ends(link).for_each(|(at, w)| row += w * shape.row(at).transpose());
         damping += link.dashpot * &row * row.transpose();
     }
-    let participation = shape.tr_mul(&mass).as_slice().to_vec();
+    let participation = shape.tr_mul(&pushed).as_slice().to_vec();
     Ok(Modes { omega, shape, participation, damping: coupled(damping) })
 }
 
-/// Damping between the modes of a linked body: no force of links or buildings is damped in proportion to its stiffness,
+/// Damping between the modes of a linked body: no force of links, soil or buildings is damped in proportion to its stiffness,
 /// so that none at all is the only damping that does not couple.
 fn coupled(damping: DMatrix<f64>) -> ModalDamping {
     match damping.iter().all(|c| *c == 0.0) {

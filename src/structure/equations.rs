@@ -7,7 +7,8 @@ use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
-use crate::scene::{Scene, Side};
+use super::soil::{self, SoilRows};
+use crate::scene::{Link, Place, Scene, Side, Soil};
 use nalgebra::DMatrix;
 
 /// Number of floor forces that are projected on the modes at a time.
@@ -20,12 +21,14 @@ pub struct Structure {
     pub bodies: Vec<Body>,
     /// The number of each building's body.
     body_of: [usize; 2],
-    /// The modes of each building by itself, where links act on it.
+    /// The modes of each building by itself on a fixed base, where links or soil act on it.
     alone: [Option<Modes>; 2],
-    /// Base shears of the buildings on which links act.
+    /// Base shears of the buildings on which links or soil act.
     shears: [Option<BaseShear>; 2],
-    /// The links of the scene.
+    /// The links of the scene, and after them the soil under foundations.
     pub links: Vec<LinkRow>,
+    /// The soil under each building among the links.
+    pub soil: [SoilRows; 2],
     /// Length of a modal vector.
     pub lanes: usize,
     /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
@@ -64,20 +67,39 @@ impl Structure {
         let left = Modes::of(buildings[0]).map_err(|e| (Side::Left, e))?;
         let right = Modes::of(buildings[1]).map_err(|e| (Side::Right, e))?;
         let modes = [left, right];
-        let floors = Floors::new(buildings, &modes, !scene.links.is_empty());
+        let is_on_soil = buildings.iter().any(|building| building.foundation.is_some());
+        let floors = Floors::new(buildings, &modes, is_on_soil || !scene.links.is_empty());
         let bodies = Body::all(buildings, &modes, &scene.links, &floors)?;
         let is_linked = |side: Side| bodies.iter().any(|body| body.is_linked && body.has(side));
         let [left, right] = modes;
         let alone = [(Side::Left, left), (Side::Right, right)].map(|(side, of)| is_linked(side).then_some(of));
         let mut structure = Structure::of_bodies(bodies, floors);
-        structure.links =
-            scene.links.iter().map(|link| LinkRow::of(link, &structure.bodies, &structure.floors)).collect();
+        structure.add_links(scene);
         structure.shears = [Side::Left, Side::Right].map(|side| {
             let modes = alone[side as usize].as_ref()?;
-            Some(BaseShear::of((side, modes), structure.body(side), &structure.floors))
+            let building = scene.building(side);
+            Some(BaseShear::of((side, building), modes, structure.body(side), &structure.floors))
         });
         structure.alone = alone;
         Ok(structure)
+    }
+
+    /// Works out the rows of the links and of the soil.
+    fn add_links(&mut self, scene: &Scene) {
+        let of = |link: &Link| LinkRow::of(link.ends(), (link.stiffness, link.dashpot), &self.bodies, &self.floors);
+        let mut links: Vec<LinkRow> = scene.links.iter().map(of).collect();
+        for side in [Side::Left, Side::Right] {
+            for (place, Soil { stiffness, dashpot }) in soil::springs(scene.building(side)) {
+                let number = Some(links.len());
+                match place {
+                    Place::Rotation => self.soil[side as usize].rocking = number,
+                    _ => self.soil[side as usize].sway = number,
+                }
+                let end = std::iter::once((side, place, 1.0));
+                links.push(LinkRow::of(end, (stiffness, dashpot), &self.bodies, &self.floors));
+            }
+        }
+        self.links = links;
     }
 
     fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
@@ -111,6 +133,7 @@ impl Structure {
             alone: [None, None],
             shears: [None, None],
             links: Vec::new(),
+            soil: [SoilRows::default(); 2],
             bodies: Vec::new(),
         };
         bodies.iter().for_each(|body| structure.spread(body));
@@ -148,17 +171,17 @@ impl Structure {
         &self.bodies[self.body_of[side as usize]]
     }
 
-    /// The modes of one building by itself.
+    /// The modes of one building by itself, on a fixed base.
     pub fn modes(&self, side: Side) -> &Modes {
         self.alone[side as usize].as_ref().unwrap_or(&self.body(side).modes)
     }
 
-    /// The rows of the base shear over displacements and velocities of all modes, where links act on the building.
+    /// The rows of the base shear over displacements and velocities of all modes, where links or soil act on the building.
     pub fn shear_rows(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
         self.shears[side as usize].as_ref().map(|shear| &shear.of_modes)
     }
 
-    /// The same over those of its floors.
+    /// The same over those of its floors and its foundation.
     pub fn shear_rows_of_floors(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
         self.shears[side as usize].as_ref().map(|shear| &shear.of_floors)
     }
@@ -173,9 +196,14 @@ impl Structure {
         if side == Side::Left { floor } else { self.floors(Side::Left) + floor }
     }
 
-    /// Number of modes of both buildings, which is that of their floors.
-    pub fn modes_of_both(&self) -> usize {
+    /// Number of floors of both buildings.
+    pub fn floors_of_both(&self) -> usize {
         self.floors(Side::Left) + self.floors(Side::Right)
+    }
+
+    /// Number of modes of both buildings.
+    pub fn modes_of_both(&self) -> usize {
+        self.bodies.iter().map(|body| body.modes.omega.len()).sum()
     }
 
     /// Whether no mode is coupled to another by damping.
@@ -218,6 +246,20 @@ impl Structure {
                     *load += shape * force;
                 }
             }
+        }
+    }
+
+    /// Adds the modal load of a force, N, or a moment, N m, on one displacement of a building, if it has that.
+    pub fn add_force(&self, side: Side, place: Place, force: f64, load: &mut [f64]) {
+        match (place, self.body(side).row_of(side, place)) {
+            (Place::Floor(floor), _) => self.add_floor_force(side, floor, force, load),
+            (_, Some(row)) => {
+                let Body { modes, range, .. } = self.body(side);
+                for (shape, load) in modes.shape.row(row).iter().zip(&mut load[range.clone()]) {
+                    *load += shape * force;
+                }
+            }
+            (_, None) => {}
         }
     }
 
@@ -302,7 +344,7 @@ impl Structure {
         }
     }
 
-    /// Force of a building on the ground, N: sum over its floors of K u + C v.
+    /// Force of a building on its base, N: sum over its floors of K u + C v.
     pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
         if let Some([on_q, on_v]) = self.shear_rows(side) {
             return dot(on_q, q) + dot(on_v, v);

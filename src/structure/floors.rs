@@ -1,7 +1,8 @@
 //! The two buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
 //! building, each floor is coupled to its neighbours only.
 //!
-//! Both buildings' floors stand in one vector, the left building's first. Where they are many each building begins with a
+//! Both buildings' floors stand in one vector, the left building's first. After those of a building on soil stand the sway and
+//! the rotation of its foundation, of which its mass and moment of inertia are. Where they are many each building begins with a
 //! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of
 //! its own.
 //!
@@ -11,8 +12,9 @@
 
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::{ModalDamping, Modes, rayleigh_factors};
+use super::soil;
 use crate::numerics::polynomial::each;
-use crate::scene::{Building, Damping, Stiffness};
+use crate::scene::{Building, Damping, Place, Places, Side, Stiffness};
 use std::ops::Range;
 
 /// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
@@ -20,8 +22,8 @@ use std::ops::Range;
 pub struct Floors {
     /// Lane of the lowest floor of each building.
     first: [usize; 2],
-    /// Number of floors of each building.
-    count: [usize; 2],
+    /// The displacements of each building.
+    places: [Places; 2],
     /// kg.
     mass: Vec<f64>,
     /// 1/kg.
@@ -32,8 +34,8 @@ pub struct Floors {
     buildings: [Blocks; 2],
     /// The displacements or velocities of floors at rest: zeros.
     pub rest: Vec<f64>,
-    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping, so that
-    /// each floor is coupled to its neighbours only.
+    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping and on no soil,
+    /// so that each floor is coupled to its neighbours only.
     is_sparse: bool,
 }
 
@@ -82,17 +84,18 @@ impl Floors {
         (second, lanes(second))
     }
 
-    /// For two buildings and their modes, which may be linked.
+    /// For two buildings and their modes, which may be linked or stand on soil.
     pub fn new(buildings: [&Building; 2], modes: &[Modes; 2], are_linked: bool) -> Floors {
-        let count = buildings.map(|building| building.mass.len());
+        let places = buildings.map(Places::of);
+        let [left, right] = places.each_ref().map(Places::count);
         let (second, lanes) = match are_linked {
-            true => (count[0], (count[0] + count[1]).next_multiple_of(LANES)),
-            false => Floors::layout(count[0], count[1]),
+            true => (left, (left + right).next_multiple_of(LANES)),
+            false => Floors::layout(left, right),
         };
         let zeros = vec![0.0; lanes];
         let mut floors = Floors {
             first: [0, second],
-            count,
+            places,
             mass: zeros.clone(),
             inverse_mass: zeros.clone(),
             storey: zeros.clone(),
@@ -108,8 +111,8 @@ impl Floors {
     }
 
     fn lay_out(&mut self, side: usize, building: &Building, modes: &Modes) {
-        let (first, n) = (self.first[side], self.count[side]);
-        for (i, &mass) in building.mass.iter().enumerate() {
+        let (first, n) = (self.first[side], self.places[side].floors);
+        for (i, mass) in soil::inertias(building, &self.places[side]).into_iter().enumerate() {
             self.mass[first + i] = mass;
             self.inverse_mass[first + i] = 1.0 / mass;
         }
@@ -149,12 +152,39 @@ impl Floors {
 
     /// Lanes of the floors of one building.
     pub fn lanes_of(&self, side: usize) -> Range<usize> {
-        self.first[side]..self.first[side] + self.count[side]
+        self.first[side]..self.first[side] + self.places[side].floors
+    }
+
+    /// Lanes of the floors and of the foundation of one building.
+    pub fn lanes_with_foundation(&self, side: usize) -> Range<usize> {
+        self.first[side]..self.first[side] + self.places[side].count()
+    }
+
+    /// Lane of a displacement of a building, where there is one.
+    pub fn lane_of(&self, side: Side, place: Place) -> Option<usize> {
+        Some(self.first[side as usize] + self.places[side as usize].number(place)?)
+    }
+
+    /// What is taken from the motion of a floor for the drift of the storey below it, from a motion of all floors.
+    pub fn below(&self, side: Side, storey: usize, motion: &[f64]) -> f64 {
+        let taken = |(place, weight): (Place, f64)| Some(-weight * motion[self.lane_of(side, place)?]);
+        self.places[side as usize].drift(storey).skip(1).filter_map(taken).sum()
+    }
+
+    /// A bound on that, from bounds on the magnitudes of all motions.
+    pub fn bound_below(&self, side: Side, storey: usize, sizes: &[f64]) -> f64 {
+        let size = |(place, weight): (Place, f64)| Some(weight.abs() * sizes[self.lane_of(side, place)?]);
+        self.places[side as usize].drift(storey).skip(1).filter_map(size).sum()
+    }
+
+    /// The displacements of a building.
+    pub fn places(&self, side: Side) -> &Places {
+        &self.places[side as usize]
     }
 
     /// The floors of one building in a vector of all.
     pub fn of_building<'a>(&self, side: usize, all: &'a [f64]) -> &'a [f64] {
-        &all[self.first[side]..][..self.count[side]]
+        &all[self.lanes_of(side)]
     }
 
     /// 1/kg of a lane.
@@ -162,9 +192,16 @@ impl Floors {
         self.inverse_mass[lane]
     }
 
-    /// 1 at every floor.
+    /// 1 at everything that the ground pushes: all but the rotations of foundations.
     pub fn ones(&self) -> Vec<f64> {
-        self.mass.iter().map(|mass| f64::from(*mass > 0.0)).collect()
+        let one = |(lane, mass): (usize, &f64)| if *mass > 0.0 { self.share_of_ground(lane) } else { 0.0 };
+        self.mass.iter().enumerate().map(one).collect()
+    }
+
+    /// Minus the acceleration of a lane by that of the ground: 0 of the rotation of a foundation.
+    pub fn share_of_ground(&self, lane: usize) -> f64 {
+        let is_rotation = |side: &Side| self.lane_of(*side, Place::Rotation) == Some(lane);
+        if [Side::Left, Side::Right].iter().any(is_rotation) { 0.0 } else { 1.0 }
     }
 
     /// `out` -= M^-1 (K u + rate C v), m/s^2 for `rate` 1.

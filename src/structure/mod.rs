@@ -12,7 +12,8 @@
 //! |---|---|
 //! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
 //! | `bodies.rs`, `links.rs` | what moves together: buildings, and the links that join them |
-//! | `base_shear.rs` | the force on the ground of a building on which links act |
+//! | `soil.rs` | buildings on soil: the stiffness of one, the springs of the soil |
+//! | `base_shear.rs` | the force on its base of a building on which links or soil act |
 //! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
@@ -45,6 +46,7 @@ mod modes;
 mod propagator;
 mod series;
 mod short_flight;
+mod soil;
 
 pub use block_increments::ModeIncrements;
 pub use bodies::Body;
@@ -64,3 +66,4 @@ pub use series::MotionSeries;
 pub use series::expand::{EXACT, PairForces, flight_order};
 pub use series::sums::{sum_sizes, sum_terms};
 pub use short_flight::{exact_order, fly_in_one_series};
+pub use soil::{SoilRows, period_ratio};

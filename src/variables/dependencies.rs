@@ -1,8 +1,8 @@
 //! Which inputs an output depends on at communication points, as the model structure of the description lists them.
 //! Those at the start are in `initial_dependencies.rs`.
 
-use crate::engine::{ContactOutput, Input, Output, Side};
-use crate::scene::Scene;
+use crate::engine::{ContactOutput, FoundationOutput, Input, Output, Side};
+use crate::scene::{Place, Scene};
 
 /// How an unknown depends on a known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,23 +21,28 @@ pub enum Dependence {
 /// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
 /// the ground has a share.
 pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> Option<Dependence> {
+    let accelerated = match output {
+        Output::Acceleration(side, floor) => Some((side, Place::Floor(floor))),
+        Output::Foundation(side, FoundationOutput::Acceleration) => Some((side, Place::Foundation)),
+        _ => None,
+    };
     match (output, input) {
-        (Output::Acceleration(side, floor), Input::Force(forced_side, forced_floor)) => {
-            let group = held_with(scene, (side, floor));
-            let answers = group.contains(&(forced_side, forced_floor));
-            let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == (side, floor)));
+        (Output::Acceleration(..) | Output::Foundation(..), Input::Force(side, floor)) => {
+            let place = accelerated?;
+            let answers = held_with(scene, place).contains(&(side, Place::Floor(floor)));
+            let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == place));
             answers.then_some(if is_free { Dependence::Fixed } else { Dependence::Dependent })
         }
-        (Output::Acceleration(side, floor), Input::GroundAcceleration) => {
-            is_held_to_ground(scene, (side, floor)).then_some(Dependence::Dependent)
+        (Output::Acceleration(..) | Output::Foundation(..), Input::GroundAcceleration) => {
+            is_held_to_ground(scene, accelerated?).then_some(Dependence::Dependent)
         }
         (Output::Contact(p, ContactOutput::Force), Input::GroundAcceleration) => {
             let answers = scene.contacts[p].law.is_rigid() && is_held_to_ground(scene, floors(scene, p)[0]);
             answers.then_some(Dependence::Dependent)
         }
         (Output::Contact(p, ContactOutput::Force), Input::Force(side, floor)) => {
-            let answers =
-                scene.contacts[p].law.is_rigid() && held_with(scene, floors(scene, p)[0]).contains(&(side, floor));
+            let answers = scene.contacts[p].law.is_rigid()
+                && held_with(scene, floors(scene, p)[0]).contains(&(side, Place::Floor(floor)));
             answers.then_some(Dependence::Dependent)
         }
         _ => None,
@@ -45,19 +50,19 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
 }
 
 /// Those in the row of a contact.
-pub(super) fn floors(scene: &Scene, p: usize) -> Vec<(Side, usize)> {
-    scene.contacts[p].row().map(|share| (share.side, share.floor)).collect()
+pub(super) fn floors(scene: &Scene, p: usize) -> Vec<(Side, Place)> {
+    scene.contacts[p].row(scene).map(|share| (share.side, share.place)).collect()
 }
 
 /// The floors in the row of each rigid contact.
-fn rigid_rows(scene: &Scene) -> impl Iterator<Item = impl Iterator<Item = (Side, usize)> + '_> + '_ {
+fn rigid_rows(scene: &Scene) -> impl Iterator<Item = impl Iterator<Item = (Side, Place)> + '_> + '_ {
     let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid());
-    rigid.map(|pair| pair.row().map(|share| (share.side, share.floor)))
+    rigid.map(|pair| pair.row(scene).map(|share| (share.side, share.place)))
 }
 
 /// The floors whose motions depend on each other while all rigid contacts are closed, with a given one of them.
-fn held_with(scene: &Scene, floor: (Side, usize)) -> Vec<(Side, usize)> {
-    let rows: Vec<Vec<(Side, usize)>> = rigid_rows(scene).map(Iterator::collect).collect();
+fn held_with(scene: &Scene, floor: (Side, Place)) -> Vec<(Side, Place)> {
+    let rows: Vec<Vec<(Side, Place)>> = rigid_rows(scene).map(Iterator::collect).collect();
     let mut group = vec![floor];
     let mut reached = 0;
     while reached < group.len() {
@@ -73,8 +78,8 @@ fn held_with(scene: &Scene, floor: (Side, usize)) -> Vec<(Side, usize)> {
 }
 
 /// Whether the ground has a share in any rigid contact of the floors that move with a floor.
-fn is_held_to_ground(scene: &Scene, floor: (Side, usize)) -> bool {
+fn is_held_to_ground(scene: &Scene, floor: (Side, Place)) -> bool {
     let group = held_with(scene, floor);
-    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid() && pair.has_ground());
-    rigid.flat_map(|pair| pair.row()).any(|share| group.contains(&(share.side, share.floor)))
+    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid() && pair.has_ground(scene));
+    rigid.flat_map(|pair| pair.row(scene)).any(|share| group.contains(&(share.side, share.place)))
 }

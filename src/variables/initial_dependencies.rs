@@ -7,8 +7,10 @@
 use super::dependencies::floors;
 use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
-use crate::engine::{ContactOutput, EnergyOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf};
-use crate::scene::{Building, Damping, Scene, Share, Stiffness};
+use crate::engine::{
+    ContactOutput, EnergyOutput, FoundationOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf,
+};
+use crate::scene::{Building, Damping, FoundationKey, Place, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
 /// `known` an input or a parameter.
@@ -25,7 +27,11 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         }
         Slot::Calculated(Calculated::SystemFrequency(_)) => {
             let is_of_building = [Side::Left, Side::Right].into_iter().any(|side| is_of_modes(side, known));
-            return is_of_building || matches!(known, Slot::Parameter(Parameter::LinkStiffness(_)));
+            let is_of_soil = [Side::Left, Side::Right].into_iter().any(|side| is_of_foundation(side, known));
+            return is_of_building || is_of_soil || matches!(known, Slot::Parameter(Parameter::LinkStiffness(_)));
+        }
+        Slot::Calculated(Calculated::PeriodRatio(side)) => {
+            return is_of_modes(side, known) || is_of_foundation(side, known);
         }
         Slot::Output(output) => output,
         Slot::Input(_) | Slot::Parameter(_) => return false,
@@ -65,7 +71,7 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::Peak(_) if matches!(known, Slot::Input(_)) => false,
         Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => base_shear(scene, side, known),
         Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
-            acceleration(scene, (side, floor), known)
+            acceleration(scene, (side, Place::Floor(floor)), known)
         }
         Output::Contact(p, C::Penetration) => is_of_distance(scene, p, known),
         Output::Contact(p, C::Active | C::Impacts) => is_of_distance(scene, p, known) && is_pushed(scene, p),
@@ -86,6 +92,11 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
             | LinkOutput::Slipping,
         )
         | Output::Peak(PeakOf::LinkDisplacement(_)) => false,
+        Output::Foundation(side, FoundationOutput::Acceleration) => {
+            acceleration(scene, (side, Place::Foundation), known)
+        }
+        // It begins at rest.
+        Output::Foundation(..) => false,
         Output::Impacts => (0..scene.contacts.len()).any(|p| is_of_distance(scene, p, known) && is_pushed(scene, p)),
         Output::Energy(term) => energy(scene, term, known),
     }
@@ -96,11 +107,18 @@ fn is_of_modes(side: Side, known: Slot) -> bool {
     matches!(known, Slot::Parameter(Parameter::Mass(s, _) | Parameter::Stiffness(s, _)) if s == side)
 }
 
+/// What moves with a foundation, and the springs below it.
+fn is_of_foundation(side: Side, known: Slot) -> bool {
+    matches!(known, Slot::Parameter(Parameter::Foundation(s, key)) if s == side && key.is_of_frequencies())
+}
+
 /// What decides how far a contact is open: the gap, and where columns are hit that start out of place.
 fn is_of_distance(scene: &Scene, p: usize, known: Slot) -> bool {
-    let is_displaced = |share: Share| scene.building(share.side).initial_displacement[share.floor] != 0.0;
+    let displacement =
+        |share: &Share| Building::at_start(&scene.building(share.side).initial_displacement, share.place);
+    let is_displaced = |share: Share| displacement(&share) != 0.0;
     known == Slot::Parameter(Parameter::Gap(p))
-        || known == Slot::Parameter(Parameter::Position(p)) && scene.contacts[p].row().any(is_displaced)
+        || known == Slot::Parameter(Parameter::Position(p)) && scene.contacts[p].row(scene).any(is_displaced)
 }
 
 /// The storey whose shear a parameter changes at a given drift: by its stiffness, or by its yield line.
@@ -135,23 +153,27 @@ fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
         || damping_force(scene, side, known, [0, 0])
 }
 
-/// Forces on a floor over its mass.
-fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> bool {
+/// Forces on a floor over its mass, or on a foundation that nothing has moved yet.
+fn acceleration(scene: &Scene, (side, place): (Side, Place), known: Slot) -> bool {
     let building = scene.building(side);
-    let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, floor)));
-    let is_there = |l: &usize| scene.links[*l].ends().any(|(s, f, _)| (s, f) == (side, floor));
+    let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, place)));
+    let is_there = |l: &usize| scene.links[*l].ends().any(|(s, end, _)| (s, end) == (side, place));
     let links = || (0..scene.links.len()).filter(is_there);
-    let storeys = [floor, floor + 1];
+    let (storeys, mass) = match place {
+        Place::Floor(floor) => ([floor, floor + 1], Parameter::Mass(side, floor)),
+        Place::Foundation | Place::Rotation => ([0, 0], Parameter::Foundation(side, FoundationKey::Mass)),
+    };
     match known {
-        Slot::Input(Input::Force(s, f)) => (s, f) == (side, floor),
-        Slot::Parameter(Parameter::Mass(s, f)) if (s, f) == (side, floor) => {
+        Slot::Input(Input::Force(s, floor)) => (s, Place::Floor(floor)) == (side, place),
+        Slot::Parameter(parameter) if parameter == mass => {
             let is_strained = match &building.stiffness {
                 Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
                 Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
             };
             let is_held = links().any(|l| closing(scene, l) != [0.0; 2]);
             let is_pushed = contacts().any(|p| is_pushed(scene, p));
-            scene.floor_forces || is_strained || is_damped(building) || is_held || is_pushed
+            let is_forced = scene.floor_forces && place != Place::Foundation;
+            is_forced || is_strained || is_damped(building) || is_held || is_pushed
         }
         _ => {
             let is_strain = |storey| is_of_net_storey(scene, known, (side, storey)) && drifts(building, storey);
@@ -165,10 +187,11 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
 
 /// Displacement and velocity of a link at the start.
 fn closing(scene: &Scene, l: usize) -> [f64; 2] {
-    let ends = || scene.links[l].ends().map(|(side, floor, weight)| (scene.building(side), floor, weight));
-    let displacement = ends().map(|(building, floor, weight)| weight * building.initial_displacement[floor]).sum();
-    let velocity = ends().map(|(building, floor, weight)| weight * building.initial_velocity[floor]).sum();
-    [displacement, velocity]
+    let of = |motion: fn(&Building) -> &[f64]| {
+        let ends = scene.links[l].ends();
+        ends.map(|(side, place, weight)| weight * Building::at_start(motion(scene.building(side)), place)).sum()
+    };
+    [of(|building| &building.initial_displacement), of(|building| &building.initial_velocity)]
 }
 
 /// Whether a parameter changes the force of the spring of a link at the start.
@@ -230,7 +253,12 @@ fn contact_force(scene: &Scene, p: usize, known: Slot) -> bool {
             }
             Slot::Parameter(Parameter::Restitution(q)) => q == p && dashpot_acts(scene, p),
             Slot::Parameter(Parameter::Mass(side, floor)) => {
-                floors(scene, p).contains(&(side, floor)) && dashpot_acts(scene, p)
+                floors(scene, p).contains(&(side, Place::Floor(floor))) && dashpot_acts(scene, p)
+            }
+            Slot::Parameter(Parameter::Foundation(side, key)) => {
+                let place = if key == FoundationKey::Inertia { Place::Rotation } else { Place::Foundation };
+                let is_inertia = matches!(key, FoundationKey::Mass | FoundationKey::Inertia);
+                is_inertia && floors(scene, p).contains(&(side, place)) && dashpot_acts(scene, p)
             }
             _ => false,
         }
@@ -242,8 +270,9 @@ const DEEP: f64 = 1e6;
 /// Whether an overlap at the start is damped, at the rate that the scene gives it and with some restitution: the dashpot
 /// depends on the restitution and on the masses of both floors.
 fn dashpot_acts(scene: &Scene, p: usize) -> bool {
-    let velocity = |share: Share| share.weight * scene.building(share.side).initial_velocity[share.floor];
-    let rate: f64 = scene.contacts[p].row().map(velocity).sum();
+    let velocity =
+        |share: Share| share.weight * Building::at_start(&scene.building(share.side).initial_velocity, share.place);
+    let rate: f64 = scene.contacts[p].row(scene).map(velocity).sum();
     let mut law = scene.contacts[p].law;
     law.restitution = 0.5;
     let force = EpisodeForce::new(&law, 1.0, None);

@@ -7,7 +7,7 @@ use super::slot::{Calculated, Parameter};
 use super::table::{Table, Type};
 use super::unit::Unit;
 use crate::engine::{LinkOutput, Output, PeakOf};
-use crate::scene::{Link, Scene, Slip};
+use crate::scene::{Link, Places, Scene, Slip};
 
 impl Table {
     /// The parameters that a link has.
@@ -102,13 +102,19 @@ impl Table {
         }
     }
 
-    /// What the buildings have together, with their links.
+    /// What the buildings have together, with their links and on their soil.
     pub(super) fn add_system(&mut self, scene: &Scene) {
         let buildings = || [&scene.left, &scene.right].into_iter().filter(|building| !building.is_absent());
         let typical = buildings().map(typical_frequency).fold(0.0, f64::max);
-        for mode in 0..buildings().map(|building| building.mass.len()).sum() {
+        let is_on_soil = buildings().any(|building| building.foundation.is_some());
+        let with = match (scene.links.is_empty(), is_on_soil) {
+            (false, false) => "with their links",
+            (false, true) => "with their links and on their soil",
+            (true, _) => "on their soil",
+        };
+        for mode in 0..buildings().map(|building| Places::of(building).count()).sum() {
             let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
-            let about = format!("natural frequency {i} of the buildings with their links, without damping");
+            let about = format!("natural frequency {i} of the buildings {with}, without damping");
             let row = self.add(Calculated::SystemFrequency(mode), &format!("system.frequency[{i}]"), ty, &about);
             row.at_least(0.0).nominal(typical);
         }

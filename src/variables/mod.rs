@@ -28,6 +28,7 @@
 mod changes;
 mod dependencies;
 mod derivatives;
+mod foundation_rows;
 mod initial_dependencies;
 mod link_rows;
 mod rows;

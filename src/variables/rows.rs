@@ -6,12 +6,12 @@ use super::unit::Unit;
 use crate::contact::LawKey;
 use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
-use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Place, Scaling, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 pub(super) const DISPLACEMENT: f64 = 0.01;
 pub(super) const VELOCITY: f64 = 0.1;
-const ACCELERATION: f64 = 1.0;
+pub(super) const ACCELERATION: f64 = 1.0;
 
 // Where the scene has none.
 const DAMPING_RATIO: f64 = 0.05;
@@ -20,7 +20,7 @@ pub(super) const POST_YIELD_RATIO: f64 = 0.05;
 pub(super) const ONE: Type = Type::Real(Unit::One);
 pub(super) const METRE: Type = Type::Real(Unit::Metre);
 pub(super) const METRE_PER_SECOND: Type = Type::Real(Unit::MetrePerSecond);
-const METRE_PER_SECOND_SQUARED: Type = Type::Real(Unit::MetrePerSecondSquared);
+pub(super) const METRE_PER_SECOND_SQUARED: Type = Type::Real(Unit::MetrePerSecondSquared);
 pub(super) const NEWTON: Type = Type::Real(Unit::Newton);
 const NEWTON_SECOND: Type = Type::Real(Unit::NewtonSecond);
 pub(super) const JOULE: Type = Type::Real(Unit::Joule);
@@ -56,12 +56,13 @@ impl Table {
                 table.add_collapse(side);
             }
             table.add_building(building, side, scene.peaks);
+            table.add_foundation(building, side, scene.peaks);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
             let meeting = &pair.meeting(scene);
             table.add_contact(p, pair, meeting);
             table.add_law(p, pair, meeting);
-            let mass = pair.row().map(|share| scene.building(share.side).mass[share.floor]).sum();
+            let mass = masses(pair, scene);
             table.add_contact_outputs(p, pair, mass, meeting);
         }
         for (l, link) in scene.links.iter().enumerate() {
@@ -69,7 +70,8 @@ impl Table {
             table.add_link(l, link, meeting);
             table.add_link_outputs((l, link), scene, meeting);
         }
-        if !scene.links.is_empty() {
+        let has_foundation = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
+        if has_foundation || !scene.links.is_empty() {
             table.add_system(scene);
         }
         table
@@ -182,8 +184,9 @@ impl Table {
 
     fn add_building(&mut self, building: &Building, side: Side, peaks: bool) {
         let name = side.name();
-        let about = "force of the building on the ground: sum of K u + C v over its floors";
-        let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
+        let base = if building.foundation.is_some() { "its foundation" } else { "the ground" };
+        let about = format!("force of the building on {base}: sum of K u + C v over its floors");
+        let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, &about);
         row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
         if peaks {
             let about = "largest base shear so far, of either sign, between communication points and in impacts too";
@@ -206,7 +209,8 @@ impl Table {
         }
         for mode in 0..building.mass.len() {
             let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
-            let about = format!("natural frequency of mode {i} of the {name} building alone");
+            let base = if building.foundation.is_some() { ", on a fixed base" } else { "" };
+            let about = format!("natural frequency of mode {i} of the {name} building alone{base}");
             let row = self.add(Calculated::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about);
             row.at_least(0.0).nominal(typical_frequency(building));
         }
@@ -343,6 +347,7 @@ impl Table {
         let slips = scene.links.iter().any(|link| link.slip.is_some());
         let hysteretic = slips || [&scene.left, &scene.right].into_iter().any(yields);
         let gravity = [&scene.left, &scene.right].into_iter().any(Building::has_gravity);
+        let soil = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
         for (term, about) in [
             (E::Input, "work of the inertia forces of the ground motion so far"),
             (E::Kinetic, "kinetic energy of the motion relative to the ground"),
@@ -352,11 +357,20 @@ impl Table {
             (E::External, "work of the external floor forces so far"),
             (E::Hysteretic, "energy dissipated so far by storeys that have yielded"),
             (E::Gravity, "potential energy of the weights on storeys that lean, 0 or less"),
+            (E::Soil, "energy dissipated so far by the dashpots of the soil, a part of energy.viscous"),
         ] {
-            if term == E::Hysteretic && !hysteretic || term == E::Gravity && !gravity {
+            let exists = match term {
+                E::Hysteretic => hysteretic,
+                E::Gravity => gravity,
+                E::Soil => soil,
+                _ => true,
+            };
+            if !exists {
                 continue;
             }
             let links = match term {
+                E::Strain | E::Viscous if soil && !scene.links.is_empty() => ", links and soil included",
+                E::Strain | E::Viscous if soil => ", soil included",
                 E::Strain | E::Viscous if !scene.links.is_empty() => ", links included",
                 E::Hysteretic if slips => ", and by links that have slipped",
                 _ => "",
@@ -410,6 +424,12 @@ impl Row {
         self.nominal = accepted.then_some(value);
         self
     }
+}
+
+/// kg, of all floors that take part in a contact.
+fn masses(pair: &ContactPair, scene: &Scene) -> f64 {
+    let floors = pair.row(scene).filter(|share| share.place != Place::Rotation);
+    floors.map(|share| scene.building(share.side).inertia(share.place)).sum()
 }
 
 /// Hz: that of a floor on its storeys, whatever the others do.

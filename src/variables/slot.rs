@@ -1,6 +1,7 @@
 //! What the variables stand for.
 
 use crate::engine::{Input, Output, Side};
+use crate::scene::FoundationKey;
 
 /// What a variable stands for. Floors, storeys, contacts and links are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +26,10 @@ pub enum Calculated {
     StabilityCoefficient(Side, usize),
     /// m: drift at which a storey that yields resists no push any more.
     CriticalDrift(Side, usize),
-    /// Hz: natural frequency of the buildings with their links.
+    /// Hz: natural frequency of the buildings with their links and on their soil.
     SystemFrequency(usize),
+    /// First period of a building on its soil over that on a fixed base.
+    PeriodRatio(Side),
 }
 
 /// A parameter: the master sets it before the end of initialisation.
@@ -63,6 +66,8 @@ pub enum Parameter {
     LinkStiffness(usize),
     /// N s/m, of a link
     LinkDashpot(usize),
+    /// Of the foundation of a building
+    Foundation(Side, FoundationKey),
     /// N, of a link
     SlipForce(usize),
     /// Of a link

@@ -36,6 +36,18 @@ pub enum Unit {
     Joule,
     /// s
     Second,
+    /// rad
+    Radian,
+    /// rad/s
+    RadianPerSecond,
+    /// kg m2
+    KilogramMetreSquared,
+    /// N m
+    NewtonMetre,
+    /// N m/rad
+    NewtonMetrePerRadian,
+    /// N m s/rad
+    NewtonMetreSecondPerRadian,
 }
 
 /// What the description says of a unit.
@@ -54,7 +66,7 @@ pub struct UnitInfo {
 
 impl Unit {
     /// All units, in the order of the description.
-    pub const ALL: [Unit; 14] = [
+    pub const ALL: [Unit; 20] = [
         Unit::One,
         Unit::Metre,
         Unit::MetrePerSecond,
@@ -69,6 +81,12 @@ impl Unit {
         Unit::NewtonPerMetreToTheExponent,
         Unit::Joule,
         Unit::Second,
+        Unit::Radian,
+        Unit::RadianPerSecond,
+        Unit::KilogramMetreSquared,
+        Unit::NewtonMetre,
+        Unit::NewtonMetrePerRadian,
+        Unit::NewtonMetreSecondPerRadian,
     ];
 
     /// That of the stiffness of a contact. Where the exponent is a parameter, the unit follows it.
@@ -104,6 +122,26 @@ impl Unit {
                 unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), "ContactStiffness", None, None)
             }
             Unit::Second => unit("s", "Time", Some(&[("s", 1)]), None),
+            Unit::Radian => unit("rad", "Angle", Some(&[("rad", 1)]), Some(("mrad", 1e3))),
+            Unit::RadianPerSecond => {
+                unit("rad/s", "AngularVelocity", Some(&[("s", -1), ("rad", 1)]), Some(("mrad/s", 1e3)))
+            }
+            Unit::KilogramMetreSquared => {
+                unit("kg.m2", "MomentOfInertia", Some(&[("kg", 1), ("m", 2)]), Some(("t.m2", 1e-3)))
+            }
+            Unit::NewtonMetre => unit("N.m", "Moment", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kN.m", 1e-3))),
+            Unit::NewtonMetrePerRadian => unit(
+                "N.m/rad",
+                "RotationalStiffness",
+                Some(&[("kg", 1), ("m", 2), ("s", -2), ("rad", -1)]),
+                Some(("kN.m/rad", 1e-3)),
+            ),
+            Unit::NewtonMetreSecondPerRadian => unit(
+                "N.m.s/rad",
+                "RotationalDamping",
+                Some(&[("kg", 1), ("m", 2), ("s", -1), ("rad", -1)]),
+                Some(("kN.m.s/rad", 1e-3)),
+            ),
             Unit::Joule => unit("J", "Energy", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
         }
     }

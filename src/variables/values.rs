@@ -9,6 +9,7 @@ use crate::record::{KnownRecords, Record};
 use crate::scene::{
     Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
 };
+use crate::structure::period_ratio;
 use crate::warnings::{self, Warning};
 use std::path::Path;
 use std::sync::Arc;
@@ -71,7 +72,7 @@ impl<'a> Value<'a> {
 }
 
 /// Keys of a scene that are no parameters: what is wrong at them is so by several parameters.
-const OF_SEVERAL: [&str; 2] = [".p_delta", ".collapse_drift_ratio"];
+const OF_SEVERAL: [&str; 3] = [".p_delta", ".collapse_drift_ratio", ".foundation"];
 
 /// The parameters: a scene and the record that runs.
 #[derive(Clone, Debug)]
@@ -140,6 +141,9 @@ impl Settings {
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution,
+            Parameter::Foundation(side, key) => {
+                scene.building(side).foundation.as_ref().and_then(|of| of.get(key)).unwrap_or_default()
+            }
             Parameter::LinkStiffness(l) => scene.links[l].stiffness,
             Parameter::LinkDashpot(l) => scene.links[l].dashpot,
             Parameter::SlipForce(l) => scene.links[l].slip.map_or(0.0, |slip| slip.force),
@@ -153,6 +157,7 @@ impl Settings {
     pub fn calculate(&self, calculated: Calculated) -> f64 {
         match calculated {
             Calculated::Frequency(..) | Calculated::SystemFrequency(_) => 0.0,
+            Calculated::PeriodRatio(side) => period_ratio(self.scene.building(side)),
             Calculated::StabilityCoefficient(side, storey) => {
                 let building = self.scene.building(side);
                 let gravity = building.gravity_stiffness();
@@ -259,6 +264,9 @@ impl Settings {
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness = number,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent = number,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution = number,
+            Parameter::Foundation(side, key) => {
+                building_mut(scene, side).foundation.iter_mut().for_each(|of| of.set(key, number));
+            }
             Parameter::LinkStiffness(l) => scene.links[l].stiffness = number,
             Parameter::LinkDashpot(l) => scene.links[l].dashpot = number,
             Parameter::SlipForce(l) => scene.links[l].slip.iter_mut().for_each(|slip| slip.force = number),
@@ -298,13 +306,15 @@ fn without_pga(mut error: SceneError, record: &str) -> SceneError {
     error
 }
 
-/// The only parameter whose name is not its path in the scene.
+/// The parameters whose names are not their paths in the scene.
 fn name_variable(path: &mut String) {
     for (key, name) in [
         (".damping.ratio", ".damping_ratio"),
         (".damping.dashpots[", ".dashpot["),
         (".left_position", ".position"),
         (".right_position", ".position"),
+        (".foundation.sway.", ".foundation.sway_"),
+        (".foundation.rocking.", ".foundation.rocking_"),
     ] {
         if path.contains(key) {
             *path = path.replacen(key, name, 1);

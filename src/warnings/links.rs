@@ -4,7 +4,7 @@ use super::facts::{Facts, Pace};
 use super::found::{Found, Odd};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Link, Side, Stiffness, Units};
+use crate::scene::{Building, Link, Place, Side, Stiffness, Units};
 
 /// Times the stiffest storey: from there on a spring is as good as rigid.
 const TIE: f64 = 10.0;
@@ -62,7 +62,8 @@ fn stiffest(building: &Building) -> f64 {
 
 /// Judged by the first modes of the buildings that swing as buildings do; any other end stands still.
 fn overdamped(facts: &Facts<'_>, link: &Link) -> Odd {
-    let swinging = link.ends().filter_map(|(side, floor, _)| {
+    let swinging = link.ends().filter_map(|(side, place, _)| {
+        let Place::Floor(floor) = place else { return None };
         let first = facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual)?;
         let inertia: f64 = facts.building(side).mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
         Some((first.shape[floor].powi(2) / inertia, first.omega))
@@ -107,8 +108,8 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
 
 fn always_slips(facts: &Facts<'_>, link: &Link) -> Odd {
     let slip = link.slip?;
-    let weight = |side: Side, floor: usize| STANDARD_GRAVITY * facts.building(side).mass[floor];
-    let share = slip.force / link.ends().map(|(side, floor, _)| weight(side, floor)).fold(f64::INFINITY, f64::min);
+    let weight = |side: Side, place: Place| STANDARD_GRAVITY * facts.building(side).inertia(place);
+    let share = slip.force / link.ends().map(|(side, place, _)| weight(side, place)).fold(f64::INFINITY, f64::min);
     (share < ALWAYS_EXCEEDED).then(|| {
         let given = if facts.scene.units == Units::Si { "; it is in N, was it given in kN?" } else { "" };
         let text = format!(

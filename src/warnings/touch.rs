@@ -4,7 +4,7 @@ use super::facts::Facts;
 use crate::contact::{ImpactLaw, StiffnessUnit};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::ContactPair;
+use crate::scene::{ContactPair, Place};
 use crate::structure::Side;
 use std::f64::consts::PI;
 
@@ -76,7 +76,8 @@ impl Touch {
 
 /// The mass of the lightest floor that takes part, kg.
 pub(super) fn lightest(facts: &Facts<'_>, pair: &ContactPair) -> Option<f64> {
-    pair.row().map(|share| facts.building(share.side).mass[share.floor]).reduce(f64::min)
+    let moved = pair.row(facts.scene).filter(|share| share.place != Place::Rotation);
+    moved.map(|share| facts.building(share.side).inertia(share.place)).reduce(f64::min)
 }
 
 /// Of the penetration; none for rigid floors.

@@ -3,16 +3,16 @@
 use crate::common::{Run, scene};
 use pounding::engine::{LinkOutput, Output, PeakOf, Side};
 use pounding::record::Record;
-use pounding::scene::{Link, Scene, Slip};
+use pounding::scene::{Link, Place, Scene, Slip};
 
 /// Between two floors, counted from 1.
 pub fn between(left: usize, right: usize, stiffness: f64, dashpot: f64) -> Link {
-    Link { left: Some(left - 1), right: Some(right - 1), stiffness, dashpot, slip: None }
+    Link { left: Some(Place::Floor(left - 1)), right: Some(Place::Floor(right - 1)), stiffness, dashpot, slip: None }
 }
 
 /// Between a floor of one building, counted from 1, and the ground.
 pub fn to_wall(side: Side, floor: usize, stiffness: f64, dashpot: f64) -> Link {
-    let floor_of = |building| (building == side).then(|| floor - 1);
+    let floor_of = |building| (building == side).then(|| Place::Floor(floor - 1));
     Link { left: floor_of(Side::Left), right: floor_of(Side::Right), stiffness, dashpot, slip: None }
 }
 

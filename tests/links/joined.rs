@@ -47,7 +47,10 @@ fn damping_of(building: &Building) -> DMatrix<f64> {
 /// What a link adds to a matrix of all floors, for one unit.
 fn joined_by(link: &Link, lefts: usize, n: usize) -> DMatrix<f64> {
     let mut row = DVector::zeros(n);
-    link.ends().for_each(|(side, floor, weight)| row[if side == Side::Left { floor } else { lefts + floor }] = weight);
+    link.ends().for_each(|(side, end, weight)| {
+        let floor = end.floor().unwrap();
+        row[if side == Side::Left { floor } else { lefts + floor }] = weight;
+    });
     &row * row.transpose()
 }
 
@@ -99,7 +102,8 @@ fn check_links(scene: &Scene, [linked, one]: &[Run; 2]) {
     for (l, link) in scene.links.iter().enumerate() {
         let sum = |read: fn(&Run, Side, usize) -> f64| {
             let floor_of = |side, floor| if side == Side::Left { floor } else { lefts + floor };
-            link.ends().map(|(side, floor, weight)| weight * read(one, Side::Left, floor_of(side, floor))).sum::<f64>()
+            let ends = link.ends().map(|(side, end, weight)| (weight, floor_of(side, end.floor().unwrap())));
+            ends.map(|(weight, floor)| weight * read(one, Side::Left, floor)).sum::<f64>()
         };
         let (e, rate) = (sum(Run::displacement), sum(Run::velocity));
         let force = link.stiffness * e + link.dashpot * rate;

@@ -2,7 +2,7 @@
 //! ends, and what the equation of motion integrates to.
 
 use crate::common::scene;
-use pounding::scene::Link;
+use pounding::scene::{Link, Place};
 use pounding::structure::{FlightWork, Interval, LANES, Lane, Scratch, Structure, dot};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
@@ -97,7 +97,7 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
     );
     let alone = Structure::of(&scene).ok().unwrap();
     let link = |floor: usize, dashpot: f64| {
-        let (left, right) = (Some(floor), Some(floor + 1));
+        let (left, right) = (Some(Place::Floor(floor)), Some(Place::Floor(floor + 1)));
         Link { left, right, stiffness: 40.0, dashpot, slip: None }
     };
     scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];

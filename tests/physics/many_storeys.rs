@@ -36,8 +36,10 @@ fn penetrations_are_those_of_the_floors_where_pairs_share_one() {
         for k in 1..=6000 {
             run.to(f64::from(k) * 1e-3);
             for (contact, pair) in run.contacts().iter().zip(&scene.contacts).filter(|(contact, _)| contact.active) {
-                let of_floors: f64 =
-                    pair.row().map(|share| share.weight * run.displacement(share.side, share.floor)).sum();
+                let of_floors: f64 = pair
+                    .row(&scene)
+                    .map(|share| share.weight * run.displacement(share.side, share.place.floor().unwrap()))
+                    .sum();
                 let gap = of_floors - pair.gap;
                 let error = (contact.penetration - gap).abs();
                 assert!(error < 1e-14, "t = {} s: {:e} m, floors {gap:e} m", 1e-3 * f64::from(k), contact.penetration);

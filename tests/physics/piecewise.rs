@@ -88,13 +88,13 @@ impl Piecewise<'_> {
         }
         for link in &scene.links {
             let mut row = DVector::zeros(n);
-            link.ends().for_each(|(side, floor, weight)| row[first(side) + floor] = weight);
+            link.ends().for_each(|(side, end, weight)| row[first(side) + end.floor().unwrap()] = weight);
             let Slip { force, ratio } = link.slip.unwrap_or(Slip { force: f64::INFINITY, ratio: 1.0 });
             damping += link.dashpot * &row * row.transpose();
             let (stiffness, limit) = (link.stiffness, force / link.stiffness);
             storeys.push(Storey { row, stiffness, limit, ratio, can_yield: link.slip.is_some() });
         }
-        let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, &mass, first)).collect();
+        let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, scene, &mass, first)).collect();
         let displacements = all(|building| &building.initial_displacement);
         let velocities = all(|building| &building.initial_velocity);
         let mut y = DVector::zeros(2 * n + 2);
@@ -366,9 +366,9 @@ const SHORTEST: f64 = 2e-3;
 type Watched<'p> = Box<dyn Fn(&DVector<f64>) -> f64 + 'p>;
 
 impl Pair {
-    fn of(pair: &ContactPair, mass: &DVector<f64>, first: impl Fn(Side) -> usize) -> Pair {
+    fn of(pair: &ContactPair, scene: &Scene, mass: &DVector<f64>, first: impl Fn(Side) -> usize) -> Pair {
         let mut row = DVector::zeros(mass.len());
-        pair.row().for_each(|share| row[first(share.side) + share.floor] += share.weight);
+        pair.row(scene).for_each(|share| row[first(share.side) + share.place.floor().unwrap()] += share.weight);
         let reduced = 1.0 / row.zip_map(mass, |w: f64, m| w * w / m).sum();
         let (k, e) = (pair.law.stiffness, pair.law.restitution);
         let (stiffness, damping, restitution) = match pair.law.kind {

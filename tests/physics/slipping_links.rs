@@ -7,7 +7,7 @@ use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
 use pounding::engine::{EnergyOutput, EngineError, LinkOutput, Output, PeakOf, PointRates, Side, YieldingOf};
 use pounding::record::Record;
-use pounding::scene::{Link, Scene, Slip};
+use pounding::scene::{Link, Place, Scene, Slip};
 
 const LEFT: &str = "[left]\nmass = [4e4, 4e4, 3e4]\nstiffness = [3e7, 2.5e7, 2e7]\ndamping = { ratio = 0.05 }\n\
                     yield_force = [2.5e5, 2e5, 1.2e5]\npost_yield_ratio = [0.05, 0.0, 0.2]\n";
@@ -22,7 +22,8 @@ const LAWS: [&str; 3] = [
 /// Between floors counted from 1; 0 is the ground.
 fn link((left, right): (usize, usize), (stiffness, dashpot): (f64, f64), slip: Option<(f64, f64)>) -> Link {
     let slip = slip.map(|(force, ratio)| Slip { force, ratio });
-    Link { left: left.checked_sub(1), right: right.checked_sub(1), stiffness, dashpot, slip }
+    let place = |floor: usize| floor.checked_sub(1).map(Place::Floor);
+    Link { left: place(left), right: place(right), stiffness, dashpot, slip }
 }
 
 fn scene_of(text: &str, links: &[Link]) -> Scene {

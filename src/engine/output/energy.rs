@@ -36,6 +36,7 @@ impl Model {
         let mut shown = point.dashpots.borrow_mut();
         shown.clear();
         shown.extend(dashpots);
+        let soil = self.energy_of_soil(&shown);
         let [kinetic, strain, gravity] = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();
@@ -48,6 +49,6 @@ impl Model {
         let [input, external, viscous] = [account.input, account.external, account.viscous].map(of);
         let imbalance = initial + input + external - kinetic - (strain + gravity) - viscous - impact - hysteretic;
         let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, gravity, residual }
+        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, gravity, soil, residual }
     }
 }

@@ -58,16 +58,17 @@ impl Model {
         all[E::Kinetic] = [inner(v, a), jerk.map_or(0.0, |jerk| inner(a, a) + inner(v, jerk))];
         (all[E::Strain], all[E::Viscous], all[E::Hysteretic]) = (strain, viscous, hysteretic);
         all[E::Gravity] = gravity;
+        all[E::Soil] = self.energy_rates_of_soil(point, rates);
         all[E::Impact] = [sum(0), sum(1)];
         all[E::External] = [inner(load, v), inner(slope, v) + inner(load, a)];
         Some(all)
     }
 
-    /// -g drift (drift rate) of all storeys that lean, W, and its rate.
+    /// -g lean (rate of the lean) of all storeys that lean, W, and its rate.
     fn gravity_rates(&self, point: &Point, rates: &PointRates) -> Rates {
         self.system.leaning().fold([0.0; 2], |sums, (place, g)| {
-            let (drift, [rate, second]) = (self.drift(point, place), self.drift_rates(point, rates, place));
-            [sums[0] - g * drift * rate, sums[1] - g * (rate * rate + drift * second)]
+            let (lean, [rate, second]) = (self.lean(point, place), self.lean_rates(point, rates, place));
+            [sums[0] - g * lean * rate, sums[1] - g * (rate * rate + lean * second)]
         })
     }
 

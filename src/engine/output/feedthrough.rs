@@ -9,11 +9,12 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::inputs::Input;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
-use crate::engine::output::outputs::{ContactOutput, Output};
+use crate::engine::output::outputs::{ContactOutput, FoundationOutput, Output};
 use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::relative;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
+use crate::scene::Place;
 use crate::structure::Side;
 
 /// Accelerations and reactions by some forces on the floors alone, for a given motion.
@@ -68,6 +69,10 @@ impl Model {
         match output {
             Output::Acceleration(side, floor) => {
                 response.accelerations[self.system.structure.floors.lane(side as usize, floor)] + response.ground
+            }
+            Output::Foundation(side, FoundationOutput::Acceleration) => {
+                let lane = self.system.structure.floors.lane_of(side, Place::Foundation);
+                lane.map_or(0.0, |lane| response.accelerations[lane] + response.ground)
             }
             Output::Contact(p, ContactOutput::Force) => response.reactions[p],
             _ => 0.0,

@@ -21,20 +21,25 @@ impl Model {
     /// Displacement of a floor, counted from 0, relative to the ground, m.
     #[inline]
     pub(in crate::engine) fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor, 0)
+        self.motion_of(point, self.system.structure.floors.lane(side as usize, floor), 0)
     }
 
     /// Velocity of a floor relative to the ground, m/s.
     #[inline]
     pub(in crate::engine) fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor, 1)
+        self.motion_of(point, self.system.structure.floors.lane(side as usize, floor), 1)
     }
 
     /// Absolute acceleration of a floor, m/s2.
     #[inline]
     pub(in crate::engine) fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.acceleration_of(point, self.system.structure.floors.lane(side as usize, floor))
+    }
+
+    /// Absolute acceleration of a lane, m/s2.
+    #[inline]
+    pub(in crate::engine) fn acceleration_of(&self, point: &Point, lane: usize) -> f64 {
         let FloorMotions { acceleration, observation, .. } = &point.floors;
-        let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &acceleration[lane / LANES];
         if known.observation.get() != *observation {
             self.note_floors(point, lane / LANES, [&self.accelerations(point).absolute], known);
@@ -59,12 +64,10 @@ impl Model {
         }
     }
 
-    /// Displacement (`quantity` 0) or velocity (1) of a floor; both are worked out together, in one pass over the
-    /// floor's row.
+    /// Displacement (`quantity` 0) or velocity (1) of a lane; both are worked out together, in one pass over its row.
     #[inline]
-    fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
+    pub(in crate::engine) fn motion_of(&self, point: &Point, lane: usize, quantity: usize) -> f64 {
         let FloorMotions { motion, observation, .. } = &point.floors;
-        let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &motion[lane / LANES];
         if known.observation.get() != *observation {
             self.note_motion(point, lane / LANES, known);
@@ -106,15 +109,13 @@ impl Model {
         })
     }
 
-    /// One floor's components of some vectors of motion at the observed time.
-    pub(in crate::engine) fn at_floor<const N: usize>(
+    /// One lane's components of some vectors of motion at the observed time.
+    pub(in crate::engine) fn at_lane<const N: usize>(
         &self,
         point: &Point,
-        side: Side,
-        floor: usize,
+        lane: usize,
         motion: [&[f64]; N],
     ) -> [f64; N] {
-        let lane = self.system.structure.floors.lane(side as usize, floor);
         self.floor_block(point, lane / LANES, motion).map(|block| block[lane % LANES])
     }
 

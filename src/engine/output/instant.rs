@@ -1,7 +1,9 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
 use crate::engine::model::Model;
-use crate::engine::output::outputs::{ContactOutput, ContactPoint, EnergyPoint, LinkOutput, Output, Rates};
+use crate::engine::output::outputs::{
+    ContactOutput, ContactPoint, EnergyPoint, FoundationOutput, LinkOutput, Output, Rates,
+};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
@@ -83,6 +85,8 @@ impl<'a> Instant<'a> {
             }
             Output::Contact(p, of) => model.contact(state, point, p).get(of),
             Output::Link(l, of) => model.link(state, point, l, of),
+            Output::Foundation(side, FoundationOutput::Acceleration) => model.foundation_acceleration(point, side),
+            Output::Foundation(side, of) => model.soil_output(side, of).map_or(0.0, |output| self.read(output)),
             Output::Impacts => point.impacts as f64,
             Output::Energy(of) => model.energy(state, point).unwrap_or_default().get(of),
         }
@@ -158,6 +162,12 @@ impl<'a> Instant<'a> {
             },
             Output::Contact(p, of) => rates.contacts[p][of],
             Output::Link(l, of) => model.link_rates(point, rates, l, of),
+            Output::Foundation(side, FoundationOutput::Acceleration) => {
+                model.foundation_acceleration_rates(point, rates, side)
+            }
+            Output::Foundation(side, of) => {
+                model.soil_output(side, of).map_or([0.0; 2], |output| self.rates(rates, output))
+            }
             Output::Energy(of) => rates.energy.unwrap_or_default()[of],
             // Held from one event to the next.
             Output::Impacts | Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => [0.0; 2],

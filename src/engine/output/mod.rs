@@ -4,6 +4,7 @@ pub(super) mod energy;
 pub(super) mod energy_rates;
 pub(super) mod feedthrough;
 pub(super) mod floors;
+mod foundation;
 pub(super) mod frequencies;
 pub(super) mod instant;
 pub(super) mod known;

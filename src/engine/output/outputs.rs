@@ -38,6 +38,8 @@ pub enum Output {
     Contact(usize, ContactOutput),
     /// One link.
     Link(usize, LinkOutput),
+    /// A foundation on soil.
+    Foundation(Side, FoundationOutput),
     /// Contact episodes begun so far, of all contacts.
     Impacts,
     /// One term of the energy account.
@@ -83,6 +85,34 @@ pub enum LinkOutput {
     SlipTravel,
     /// The sense in which the spring slips now: 1 or -1, or 0.
     Slipping,
+}
+
+/// A quantity of a foundation on soil.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FoundationOutput {
+    /// Displacement relative to the ground far away, m.
+    Displacement,
+    /// Rotation, rad, positive where the building leans to the right.
+    Rotation,
+    /// Velocity relative to the ground far away, m/s.
+    Velocity,
+    /// Rate of the rotation, rad/s.
+    RotationRate,
+    /// Absolute acceleration, m/s2: the motion under the building.
+    Acceleration,
+    /// Force on the soil, N, of its spring and its dashpot.
+    Force,
+    /// Moment on the soil, N m, likewise.
+    Moment,
+    /// Largest magnitude so far of the displacement, m.
+    PeakDisplacement,
+    /// Of the rotation, rad.
+    PeakRotation,
+    /// Of the force, N.
+    PeakForce,
+    /// Of the moment, N m.
+    PeakMoment,
 }
 
 /// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or
@@ -193,6 +223,8 @@ quantities! {
     Hysteretic hysteretic: f64,
     /// Potential energy of the weights on storeys that lean, J: 0 or less.
     Gravity gravity: f64,
+    /// The part of the viscous energy that the soil under foundations dissipates, J.
+    Soil soil: f64,
     /// Imbalance of these terms divided by the largest magnitude that any of them has had.
     Residual residual: f64,
 }

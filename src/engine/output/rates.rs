@@ -142,7 +142,12 @@ impl Model {
         side: Side,
         floor: usize,
     ) -> Rates {
-        self.at_floor(point, side, floor, [&point.v, &rates.acceleration])
+        self.displacement_rates_of(point, rates, self.system.structure.floors.lane(side as usize, floor))
+    }
+
+    /// The same of a lane.
+    pub(in crate::engine) fn displacement_rates_of(&self, point: &Point, rates: &PointRates, lane: usize) -> Rates {
+        self.at_lane(point, lane, [&point.v, &rates.acceleration])
     }
 
     /// Rates of a floor's velocity relative to the ground, m/s2 and m/s3.
@@ -153,7 +158,8 @@ impl Model {
         side: Side,
         floor: usize,
     ) -> Rates {
-        self.at_floor(point, side, floor, [&rates.acceleration, &rates.jerk])
+        let lane = self.system.structure.floors.lane(side as usize, floor);
+        self.at_lane(point, lane, [&rates.acceleration, &rates.jerk])
     }
 
     /// Rates of a floor's absolute acceleration, m/s3 and m/s4.
@@ -164,7 +170,12 @@ impl Model {
         side: Side,
         floor: usize,
     ) -> Rates {
-        let [jerk, snap] = self.at_floor(point, side, floor, [&rates.jerk, &rates.snap]);
+        self.acceleration_rates_of(point, rates, self.system.structure.floors.lane(side as usize, floor))
+    }
+
+    /// The same of a lane.
+    pub(in crate::engine) fn acceleration_rates_of(&self, point: &Point, rates: &PointRates, lane: usize) -> Rates {
+        let [jerk, snap] = self.at_lane(point, lane, [&rates.jerk, &rates.snap]);
         [jerk + rates.ground_acceleration[0], snap]
     }
 

@@ -8,6 +8,7 @@ use crate::engine::output::point_rates::PointRates;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
+use crate::scene::Place;
 use crate::structure::Side;
 
 impl Model {
@@ -32,8 +33,7 @@ impl Model {
 
     /// Drift of a storey, m.
     pub(in crate::engine) fn drift(&self, point: &Point, (side, storey): (Side, usize)) -> f64 {
-        let below = storey.checked_sub(1).map_or(0.0, |floor| self.displacement(point, side, floor));
-        self.displacement(point, side, storey) - below
+        self.sum_of(point, side, self.system.structure.floors.places(side).drift(storey))
     }
 
     /// Rates of a drift, m/s and m/s2.
@@ -43,9 +43,43 @@ impl Model {
         rates: &PointRates,
         (side, storey): (Side, usize),
     ) -> Rates {
-        let of = |floor: usize| self.displacement_rates(point, rates, side, floor);
-        let (above, below) = (of(storey), storey.checked_sub(1).map_or([0.0; 2], of));
-        [above[0] - below[0], above[1] - below[1]]
+        self.rates_of_sum((point, rates), side, self.system.structure.floors.places(side).drift(storey))
+    }
+
+    /// Lean of a storey, m: its drift, and by how much its foundation has turned.
+    pub(in crate::engine) fn lean(&self, point: &Point, (side, storey): (Side, usize)) -> f64 {
+        self.sum_of(point, side, self.system.structure.floors.places(side).lean(storey))
+    }
+
+    /// Rates of a lean, m/s and m/s2.
+    pub(in crate::engine) fn lean_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        (side, storey): (Side, usize),
+    ) -> Rates {
+        self.rates_of_sum((point, rates), side, self.system.structure.floors.places(side).lean(storey))
+    }
+
+    /// The sum of some displacements of a building, each with its weight.
+    fn sum_of(&self, point: &Point, side: Side, weights: impl Iterator<Item = (Place, f64)>) -> f64 {
+        let floors = &self.system.structure.floors;
+        let of = |(place, weight)| Some(weight * self.motion_of(point, floors.lane_of(side, place)?, 0));
+        weights.filter_map(of).sum()
+    }
+
+    fn rates_of_sum(
+        &self,
+        (point, rates): (&Point, &PointRates),
+        side: Side,
+        weights: impl Iterator<Item = (Place, f64)>,
+    ) -> Rates {
+        let floors = &self.system.structure.floors;
+        weights.fold([0.0; 2], |sum, (place, weight)| {
+            let lane = floors.lane_of(side, place);
+            let of = lane.map_or([0.0; 2], |lane| self.displacement_rates_of(point, rates, lane));
+            [sum[0] + weight * of[0], sum[1] + weight * of[1]]
+        })
     }
 
     /// The contact that has pressed hardest on the columns of a storey, and its largest force.

@@ -23,7 +23,7 @@ pub(crate) enum LanePlace {
 impl LanePlace {
     /// The place of a pair whose motion has these coordinates.
     pub(crate) fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
-        let [left, right, _] = pair.floors.map(|floor| floor.lane);
+        let [left, right, ..] = pair.floors.map(|floor| floor.lane);
         match coordinates {
             Coordinates::Floors if left % LANES == right % LANES && pair.is_of_floors() => {
                 LanePlace::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }

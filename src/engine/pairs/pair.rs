@@ -19,12 +19,13 @@ pub(crate) struct Pair {
     pub mass: f64,
     /// The same row floor by floor; what is beyond its floors has no weight.
     pub floors: RowOfFloors,
+    share_of_ground: f64,
     /// The first blocks of `row`: all of it where modes are few.
     pub first_blocks: [Lane; FEW_BLOCKS],
 }
 
-/// A floor and columns between two others.
-pub(crate) type RowOfFloors = [FloorShare; 3];
+/// A floor and columns between two others, or on a foundation that rocks.
+pub(crate) type RowOfFloors = [FloorShare; 4];
 
 /// The part of a floor in the row of a contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,17 +43,19 @@ impl Pair {
     pub(crate) fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let mut row = vec![0.0; structure.lanes];
         let mut floors = RowOfFloors::default();
-        for (share, floor) in pair.row().zip(&mut floors) {
-            structure.add_floor_force(share.side, share.floor, share.weight, &mut row);
-            let mass = scene.building(share.side).mass[share.floor];
-            let lane = structure.floors.lane(share.side as usize, share.floor);
-            *floor = FloorShare { lane, weight: share.weight, push: -share.weight * (1.0 / mass) };
+        for (share, floor) in pair.row(scene).zip(&mut floors) {
+            structure.add_force(share.side, share.place, share.weight, &mut row);
+            let lane = structure.floors.lane_of(share.side, share.place).unwrap_or_default();
+            *floor =
+                FloorShare { lane, weight: share.weight, push: -share.weight * structure.floors.inverse_mass(lane) };
         }
         let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
         for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row) {
             *first = *row;
         }
-        Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene), floors, first_blocks }
+        let share_of_ground = share_of_ground(&floors, structure);
+        let mass = pair.reduced_mass(scene);
+        Pair { row, gap: pair.gap, law: pair.law, mass, floors, share_of_ground, first_blocks }
     }
 
     /// Whether its force is a power of the penetration with a fractional exponent.
@@ -139,12 +142,12 @@ impl Pair {
 
     /// Minus the relative acceleration by that of the ground: 0 between two floors.
     pub(crate) fn share_of_ground(&self) -> f64 {
-        self.floors.iter().map(|floor| floor.weight).sum()
+        self.share_of_ground
     }
 
     /// Whether it is between two floors, so that their motions are subtracted as they are.
     pub(crate) fn is_of_floors(&self) -> bool {
-        self.floors.map(|floor| floor.weight) == [1.0, -1.0, 0.0]
+        self.floors.map(|floor| floor.weight) == [1.0, -1.0, 0.0, 0.0]
     }
 
     /// Sum of the products of its weights with its own accelerations by a unit force of another contact, 1/kg: minus what
@@ -160,8 +163,14 @@ impl Pair {
 
 /// Relative motion from that of all floors.
 #[inline(always)]
-pub(crate) fn relative([one, two, three]: &RowOfFloors, motion: &[f64]) -> f64 {
-    one.weight * motion[one.lane] + two.weight * motion[two.lane] + three.weight * motion[three.lane]
+pub(crate) fn relative([one, two, three, four]: &RowOfFloors, motion: &[f64]) -> f64 {
+    let of_three = one.weight * motion[one.lane] + two.weight * motion[two.lane] + three.weight * motion[three.lane];
+    of_three + four.weight * motion[four.lane]
+}
+
+/// Minus the acceleration of a row of floors by that of the ground.
+pub(crate) fn share_of_ground(row: &[FloorShare], structure: &Structure) -> f64 {
+    row.iter().map(|floor| floor.weight * structure.floors.share_of_ground(floor.lane)).sum()
 }
 
 /// The same, 0 where it is no more than rounding, and the size of the numbers that it is made of.

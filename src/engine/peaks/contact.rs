@@ -101,7 +101,7 @@ impl Model {
         for side in [Side::Left, Side::Right] {
             let FloorRoom { start, .. } = &work.peaks.floors;
             for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
-                let below = if floor == 0 { 0.0 } else { start.u[lane - 1] };
+                let below = self.system.structure.floors.below(side, floor, &start.u);
                 let now = [
                     (PeakOf::Displacement(side, floor), start.u[lane]),
                     (PeakOf::Drift(side, floor), start.u[lane] - below),
@@ -151,11 +151,27 @@ impl Model {
         let lanes = self.system.structure.floors.lanes_of(side as usize);
         let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
         let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
-        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);
+        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, [known[0], known[2]]);
+        match self.system.structure.floors.places(side).are_of_floors() {
+            true => find_excess_of_drifts(&mut work.peaks.floors, lanes.clone(), part.length, known[1]),
+            false => self.find_excess_on_soil(side, part.length, known[1], &mut work.peaks.floors),
+        }
         let shear = self.bound_shear(side, part.length, &work.peaks.floors).1;
         // Written so that a NaN is never below anything.
         let are_below = work.peaks.floors.excess[lanes].iter().all(|excess| *excess <= 0.0);
         !(are_below && shear <= peaks.values[self.peak_rows.place(PeakOf::BaseShear(side))])
+    }
+
+    /// Raises the excess of each floor to that of the storey below it over its peak of drift, for a building on soil.
+    fn find_excess_on_soil(&self, side: Side, h: f64, drift: &[f64], room: &mut FloorRoom) {
+        let floors = &self.system.structure.floors;
+        let FloorRoom { start, end, largest, excess, .. } = room;
+        for (storey, lane) in floors.lanes_of(side as usize).enumerate() {
+            let at = |u: &[f64]| (u[lane] - floors.below(side, storey, u)).abs();
+            let fastest = largest[lane] + floors.bound_below(side, storey, largest);
+            let moved = larger(at(&start.u), at(&end.u)) + 0.125 * h * h * fastest - drift[storey];
+            excess[lane] = if moved <= excess[lane] { excess[lane] } else { moved };
+        }
     }
 
     /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
@@ -269,7 +285,7 @@ impl Model {
         let ground = larger(ground.abs(), (ground + slope * part.length).abs());
         let PeakRoom { floors, first_push, last_push, .. } = &mut *work.peaks;
         let FloorRoom { start, end, largest, strays, .. } = floors;
-        for lane in self.system.structure.floors.lanes_of(side as usize) {
+        for lane in self.system.structure.floors.lanes_with_foundation(side as usize) {
             let ends = [start.resisted[lane] + first_push[lane], end.resisted[lane] + last_push[lane]];
             largest[lane] = larger(ends[0].abs(), ends[1].abs()) + strays[lane] + ground;
         }
@@ -299,9 +315,9 @@ impl Model {
     ) {
         let sag = 0.125 * part.length * part.length;
         let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
-        let below = floor.checked_sub(1).map(|_| lane - 1);
-        let at = |of: &[f64]| below.map_or(0.0, |lane| of[lane]);
-        let (fastest, slower) = (largest[lane], at(largest));
+        let floors = &self.system.structure.floors;
+        let at = |of: &[f64]| floors.below(side, floor, of);
+        let (fastest, slower) = (largest[lane], floors.bound_below(side, floor, largest));
         let speed = start.v[lane] + end.v[lane];
         let drifting = speed - (at(&start.v) + at(&end.v));
         let moved = [start.u[lane], end.u[lane]];
@@ -406,10 +422,9 @@ fn bound_in_time_map(
     sag * of_ground
 }
 
-/// Bounds on the excess of the floors of a building, or the storeys below them, over their peaks of displacement, drift
-/// and acceleration, whichever is largest, in a step of h seconds: the bounds of [`Model::check_floor`] for all floors.
+/// Bounds on the excess of the floors of a building over their peaks of displacement and acceleration, whichever is largest, in a step of h seconds: the bounds of [`Model::check_floor`] for all floors.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, drift, acceleration]: [&[f64]; 3]) {
+fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, acceleration]: [&[f64]; 2]) {
     let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;
     let (sag, count) = (0.125 * h * h, lanes.len());
     // Equal lengths: no bounds checks below.
@@ -418,7 +433,7 @@ fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement,
     let (r0, r1) = (&start.resisted[from..to][..count], &end.resisted[from..to][..count]);
     let (least, most) = (&least[from..to][..count], &most[from..to][..count]);
     let (largest, strays) = (&largest[from..to][..count], &strays[from..to][..count]);
-    let (displacement, drift, acceleration) = (&displacement[..count], &drift[..count], &acceleration[..count]);
+    let (displacement, acceleration) = (&displacement[..count], &acceleration[..count]);
     let excess = &mut excess[lanes][..count];
     for i in 0..count {
         let moved = larger(u0[i].abs(), u1[i].abs()) + sag * largest[i] - displacement[i];
@@ -427,6 +442,17 @@ fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement,
         let pushed = larger(top, bottom) + strays[i] - acceleration[i];
         excess[i] = if pushed <= moved { moved } else { pushed };
     }
+}
+
+/// The same for the peaks of drift, added to what is known of the others.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn find_excess_of_drifts(room: &mut FloorRoom, lanes: Range<usize>, h: f64, drift: &[f64]) {
+    let FloorRoom { start, end, largest, excess, .. } = room;
+    let (sag, count) = (0.125 * h * h, lanes.len());
+    // Equal lengths: no bounds checks below.
+    let (from, to) = (lanes.start, lanes.end);
+    let (u0, u1) = (&start.u[from..to][..count], &end.u[from..to][..count]);
+    let (largest, drift, excess) = (&largest[from..to][..count], &drift[..count], &mut excess[lanes][..count]);
     for i in 0..count {
         let (below, slower) = if i == 0 { ((0.0, 0.0), 0.0) } else { ((u0[i - 1], u1[i - 1]), largest[i - 1]) };
         let moved = larger((u0[i] - below.0).abs(), (u1[i] - below.1).abs()) + sag * (largest[i] + slower) - drift[i];

@@ -105,7 +105,7 @@ impl Model {
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
     pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
         let [on_u, on_v] = self.resistance.shear(side as usize);
-        let largest = self.system.structure.floors.of_building(side as usize, largest);
+        let largest = &largest[self.system.structure.floors.lanes_with_foundation(side as usize)];
         let terms = on_u.iter().zip(on_v).zip(largest);
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
     }
@@ -113,8 +113,8 @@ impl Model {
     /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
     fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
         let [on_u, on_v] = self.resistance.shear(side as usize);
-        let [u, v] =
-            [&floors.u, &floors.v].map(|vector| self.system.structure.floors.of_building(side as usize, vector));
+        let lanes = self.system.structure.floors.lanes_with_foundation(side as usize);
+        let [u, v] = [&floors.u[lanes.clone()], &floors.v[lanes]];
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));
         terms.map(|((k, c), (u, v))| k * u + c * v).sum()
     }

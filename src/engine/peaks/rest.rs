@@ -19,11 +19,10 @@ impl Model {
         }
         for side in [Side::Left, Side::Right] {
             watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(storeys, side, floors);
-            let mut below = 0.0;
             for (floor, lane) in system.structure.floors.lanes_of(side as usize).enumerate() {
                 watched[place(PeakOf::Displacement(side, floor))] = floors[lane];
+                let below = system.structure.floors.below(side, floor, floors);
                 watched[place(PeakOf::Drift(side, floor))] = floors[lane] - below;
-                below = floors[lane];
             }
         }
     }

@@ -181,7 +181,7 @@ fn row_of(structure: &Structure, body: &Body, of: PeakOf, m: usize) -> [f64; 2] 
     };
     match of {
         PeakOf::Displacement(side, floor) => [modes.shape[(body.row(side, floor), m)], 0.0],
-        PeakOf::Drift(side, storey) => [body.drift(body.row(side, storey), m), 0.0],
+        PeakOf::Drift(side, storey) => [body.drift(side, storey, m), 0.0],
         PeakOf::Acceleration(side, floor) => {
             let shape = |k: usize| modes.shape[(body.row(side, floor), k)];
             [-w2 * shape(m), -damped(&shape)]

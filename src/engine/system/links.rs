@@ -47,8 +47,11 @@ impl System {
     /// Base shear of a building in the position of rest, N: links hold what they have to, between floors that have yielded.
     pub fn shear_at_rest(&self, storeys: &[Storey], side: Side, floors: &[f64]) -> f64 {
         let Some([on_u, _]) = self.structure.shear_rows_of_floors(side) else { return 0.0 };
-        let elastic: f64 =
-            on_u.iter().zip(self.structure.floors.of_building(side as usize, floors)).map(|(k, u)| k * u).sum();
+        let elastic: f64 = on_u
+            .iter()
+            .zip(&floors[self.structure.floors.lanes_with_foundation(side as usize)])
+            .map(|(k, u)| k * u)
+            .sum();
         elastic - self.number_of_storey((side, 0)).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
     }
 }

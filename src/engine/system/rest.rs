@@ -4,6 +4,7 @@ use crate::engine::base::storey::Storey;
 use crate::engine::base::{Coordinates, Rest};
 use crate::engine::system::System;
 use crate::engine::yielding::element::{Element, ElementOf, Present};
+use crate::scene::Place;
 use crate::structure::Side;
 
 impl System {
@@ -80,44 +81,45 @@ impl System {
         [Side::Left, Side::Right].into_iter().flat_map(of).filter(|(_, g)| *g != 0.0)
     }
 
-    /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g drift^2.
+    /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g lean^2.
     pub fn gravity_energy(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64]) -> f64 {
         let of = |(place, g): ((Side, usize), f64)| {
-            let drift = self.drift(coordinates, place, q) + self.drift_at_rest(place, storeys);
-            -0.5 * g * (drift * drift)
+            let lean = self.lean(coordinates, place, q) + self.lean_at_rest(place, storeys);
+            -0.5 * g * (lean * lean)
         };
         self.leaning().map(of).sum()
     }
 
-    /// Drift of a storey in the position of rest, m.
-    fn drift_at_rest(&self, (side, storey): (Side, usize), storeys: &[Storey]) -> f64 {
+    /// Lean of a storey in the position of rest, m.
+    fn lean_at_rest(&self, (side, storey): (Side, usize), storeys: &[Storey]) -> f64 {
         if !self.structure.body(side).is_linked {
             let own = self.number_of_storey((side, storey));
             return own.map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
         }
-        let lane = |floor: usize| self.structure.floors.lane(side as usize, floor);
+        let floors = &self.structure.floors;
         let moved = |(of, state): (&Element, &Storey)| {
-            let below = storey.checked_sub(1).map_or(0.0, |floor| of.moves_floor(lane(floor)));
-            (of.moves_floor(lane(storey)) - below) * state.plastic
+            let of_place = |(place, weight)| Some(weight * of.moves_floor(floors.lane_of(side, place)?));
+            floors.places(side).lean(storey).filter_map(of_place).sum::<f64>() * state.plastic
         };
         self.storeys.iter().zip(storeys).map(moved).sum()
     }
 
-    /// Drift of a storey in a motion.
-    fn drift(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
-        let of = |floor: usize| self.displacement(coordinates, (side, floor), motion);
-        of(storey) - storey.checked_sub(1).map_or(0.0, of)
+    /// Lean of a storey in a motion: its drift, and by how much its foundation has turned.
+    fn lean(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
+        let places = self.structure.floors.places(side);
+        let of_place = |(place, weight)| Some(weight * self.displacement(coordinates, (side, place), motion)?);
+        places.lean(storey).filter_map(of_place).sum()
     }
 
-    fn displacement(&self, coordinates: Coordinates, (side, floor): (Side, usize), motion: &[f64]) -> f64 {
-        match coordinates {
+    fn displacement(&self, coordinates: Coordinates, (side, place): (Side, Place), motion: &[f64]) -> Option<f64> {
+        Some(match coordinates {
             Coordinates::Modes => {
                 let body = self.structure.body(side);
-                let shape = body.modes.shape.row(body.row(side, floor));
+                let shape = body.modes.shape.row(body.row_of(side, place)?);
                 shape.iter().zip(&motion[body.range.clone()]).map(|(shape, q)| shape * q).sum::<f64>()
             }
-            Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
-        }
+            Coordinates::Floors => motion[self.structure.floors.lane_of(side, place)?],
+        })
     }
 
     /// Energy dissipated by all storeys that have yielded, J.

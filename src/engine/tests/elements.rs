@@ -5,7 +5,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::base::storey::Storey;
 use crate::engine::system::System;
 use crate::engine::yielding::element::{Element, ElementOf};
-use crate::scene::{Link, Scene, Side, Slip};
+use crate::scene::{Link, Place, Scene, Side, Slip};
 use nalgebra::{DMatrix, DVector};
 
 /// Two storeys beside one, with a link between the upper floors: all yield.
@@ -17,8 +17,14 @@ fn linked() -> System {
                           post_yield_ratio = 0.05 }\n";
     let mut scene = Scene::from_toml(text).unwrap();
     let slip = Some(Slip { force: 6e4, ratio: 0.0 });
-    scene.links.push(Link { left: Some(0), right: None, stiffness: 1e6, dashpot: 0.0, slip: None });
-    scene.links.push(Link { left: Some(1), right: Some(0), stiffness: 3e7, dashpot: 1e5, slip });
+    scene.links.push(Link { left: Some(Place::Floor(0)), right: None, stiffness: 1e6, dashpot: 0.0, slip: None });
+    scene.links.push(Link {
+        left: Some(Place::Floor(1)),
+        right: Some(Place::Floor(0)),
+        stiffness: 3e7,
+        dashpot: 1e5,
+        slip,
+    });
     System::of(&scene, None).unwrap()
 }
 

@@ -47,7 +47,7 @@ impl Case {
         let accelerations = (0..=SAMPLES).map(|_| random.between(-3.0, 3.0)).collect();
         let scene = Scene::from_toml(&text).unwrap();
         let model = Model::new(&scene, Some(&Record { times, accelerations })).unwrap();
-        let floors = if has_forces { model.system.structure.modes_of_both() } else { 0 };
+        let floors = if has_forces { model.system.structure.floors_of_both() } else { 0 };
         let log = PeakLog::new(model.system.structure.lanes, floors);
         Case { model, log, end: (Vec::new(), Vec::new()) }
     }
@@ -60,7 +60,7 @@ impl Case {
         let mut state = self.model.start(0.0);
         state.base.v.iter_mut().for_each(|v| *v *= factor);
         self.end = (state.base.q.clone(), state.base.v.clone());
-        let mut forces = vec![(0.0, 0.0); self.model.system.structure.modes_of_both()];
+        let mut forces = vec![(0.0, 0.0); self.model.system.structure.floors_of_both()];
         for k in 0..samples {
             let segment = self.model.system.ground.as_ref().unwrap().segment(k as u64 % 31);
             if k % 4 == 2 {

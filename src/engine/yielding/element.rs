@@ -7,7 +7,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::bounds::certificate::stays_below;
-use crate::engine::pairs::pair::{FloorShare, beyond_rounding};
+use crate::engine::pairs::pair::{FloorShare, beyond_rounding, share_of_ground};
 use crate::engine::yielding::lift::Lift;
 use crate::numerics::polynomial::Coefficients;
 use crate::scene::{NetStorey, Scene};
@@ -44,6 +44,8 @@ pub(crate) struct Element {
     pub row: Vec<f64>,
     /// The same row floor by floor; a force along it pushes against the shares' `push`.
     pub floors: Vec<FloorShare>,
+    /// Minus the acceleration of its drift by that of the ground, per unit of it.
+    share_of_ground: f64,
     /// How its plastic drift moves the position of rest.
     lift: Lift,
 }
@@ -87,10 +89,9 @@ impl Element {
         let building = scene.building(side);
         let of = building.net_storey(storey)?;
         let mut row = vec![0.0; structure.lanes];
-        let ends = [Some((storey, 1.0)), storey.checked_sub(1).map(|below| (below, -1.0))];
-        let ends = ends.into_iter().flatten();
-        ends.clone().for_each(|(floor, weight)| structure.add_floor_force(side, floor, weight, &mut row));
-        let lane = |floor: usize| structure.floors.lane(side as usize, floor);
+        let places = structure.floors.places(side);
+        places.drift(storey).for_each(|(place, weight)| structure.add_force(side, place, weight, &mut row));
+        let floors = places.drift(storey).filter_map(|(place, w)| Some((structure.floors.lane_of(side, place)?, w)));
         let lift = match structure.body(side).is_linked {
             true => Lift::all((1.0 - of.ratio) * of.stiffness, &row, structure),
             false => Lift::above(structure, (side, storey), 1.0 - of.net_ratio()),
@@ -98,12 +99,7 @@ impl Element {
         Some(Element {
             critical: of.critical_drift(),
             collapse: building.collapse_drift(storey),
-            ..Element::on(
-                (ElementOf::Storey(side, storey), of),
-                (row, ends.map(|(floor, weight)| (lane(floor), weight))),
-                lift,
-                structure,
-            )
+            ..Element::on((ElementOf::Storey(side, storey), of), (row, floors), lift, structure)
         })
     }
 
@@ -128,6 +124,7 @@ impl Element {
             weight,
             push: -weight * structure.floors.inverse_mass(lane),
         };
+        let floors: Vec<FloorShare> = floors.map(share).collect();
         Element {
             place,
             of,
@@ -138,7 +135,8 @@ impl Element {
             critical: None,
             collapse: None,
             row,
-            floors: floors.map(share).collect(),
+            share_of_ground: share_of_ground(&floors, structure),
+            floors,
             lift,
         }
     }
@@ -237,7 +235,7 @@ impl Element {
 
     /// Minus the acceleration of its drift by that of the ground.
     pub(crate) fn share_of_ground(&self) -> f64 {
-        self.floors.iter().map(|floor| floor.weight).sum()
+        self.share_of_ground
     }
 
     /// Makes displacements relative to the position of rest relative to that after the plastic drift has changed.

@@ -1,0 +1,7 @@
+//! Buildings whose foundations sway and rock: against an independent solution in quadruple precision, closed forms,
+//! matrices, and the same run told in another way.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod reference;
