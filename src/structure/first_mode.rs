@@ -100,6 +100,7 @@ mod tests {
             heights: None,
             yielding: None,
             p_delta: None,
+            foundation: None,
         }
     }
 

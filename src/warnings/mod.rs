@@ -31,6 +31,7 @@
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
 //! | `links.rs` | devices that act as ties, springs that never slip or always do |
+//! | `soil.rs` | foundations: springs, dashpots and moments of inertia of no soil |
 //! | `order.rs` | lists with the top floor first, levels in place of heights |
 //! | `levels.rs` | levels of what meets |
 //! | `touch.rs` | how long a contact lasts |
@@ -46,6 +47,7 @@ mod ground;
 mod levels;
 mod links;
 mod order;
+mod soil;
 mod touch;
 mod whole;
 mod yielding;
@@ -71,6 +73,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     order::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
     links::look(&facts, &mut found);
+    soil::look(&facts, &mut found);
     levels::look(&facts, &mut found);
     found.warnings
 }

@@ -1,16 +1,17 @@
 //! Frames with storeys that yield, links and contacts that are linear, another way: between events the floors obey y' = A y with a
 //! constant matrix that has the stiffness of the storeys as they are then, and y is the exponential of A t. Displacements are
-//! total ones, steps are short, events are found by bisection.
+//! total ones, steps are short, events are found by bisection. Foundations are there as a sway and a rotation after the floors of
+//! their building.
 
 use crate::common::Run;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use pounding::contact::LawKind;
-use pounding::engine::{LinkOutput, Output, Side};
+use pounding::engine::{FoundationOutput, LinkOutput, Output, Side};
 use pounding::record::Record;
-use pounding::scene::{Building, ContactPair, Damping, Scene, Slip};
+use pounding::scene::{Building, ContactPair, Damping, Foundation, Place, Scene, Slip};
 use std::f64::consts::PI;
 
-/// A storey between two floors, counted through both buildings; then come the links.
+/// A storey between two floors, counted through both buildings; then come the links, and then gravity and soil as springs.
 struct Storey {
     row: DVector<f64>,
     stiffness: f64,
@@ -32,6 +33,8 @@ struct Pair {
 /// The motion and all that is remembered of it.
 pub struct Piecewise<'r> {
     mass: DVector<f64>,
+    /// 1 for what the ground pushes, 0 for rotations.
+    pushed: DVector<f64>,
     damping: DMatrix<f64>,
     storeys: Vec<Storey>,
     pairs: Vec<Pair>,
@@ -65,9 +68,18 @@ enum Event {
 impl Piecewise<'_> {
     pub fn new<'r>(scene: &Scene, record: &'r Record) -> Piecewise<'r> {
         let buildings = [&scene.left, &scene.right];
-        let first = |side: Side| if side == Side::Left { 0 } else { scene.left.mass.len() };
-        let all = |of: fn(&Building) -> &Vec<f64>| DVector::from_vec(buildings.map(of).map(Vec::clone).concat());
-        let mass = all(|building| &building.mass);
+        let first = |side: Side| if side == Side::Left { 0 } else { rows(&scene.left) };
+        let place = |side: Side, place: Place| first(side) + number(scene.building(side), place).unwrap();
+        let all = |of: fn(&Building) -> &Vec<f64>, foundation: [f64; 2]| {
+            let vectors = buildings.map(|building| {
+                let moves = [Place::Foundation, Place::Rotation].map(|place| number(building, place).is_some());
+                let more = foundation.into_iter().zip(moves).filter(|(_, moves)| *moves).map(|(value, _)| value);
+                of(building).iter().copied().chain(more).collect::<Vec<f64>>()
+            });
+            DVector::from_vec(vectors.concat())
+        };
+        let mut mass = all(|building| &building.mass, [0.0; 2]);
+        let mut pushed = DVector::from_element(mass.len(), 1.0);
         let n = mass.len();
         let mut storeys = Vec::new();
         let mut damping = DMatrix::zeros(n, n);
@@ -76,9 +88,12 @@ impl Piecewise<'_> {
             for i in 0..building.mass.len() {
                 let mut row = DVector::zeros(n);
                 row[first(side) + i] = 1.0;
-                if i > 0 {
-                    row[first(side) + i - 1] = -1.0;
+                match i.checked_sub(1) {
+                    Some(below) => row[first(side) + below] = -1.0,
+                    None => number(building, Place::Foundation).iter().for_each(|at| row[first(side) + at] = -1.0),
                 }
+                let height = building.heights.as_ref().map_or(0.0, |heights| heights.storeys[i]);
+                number(building, Place::Rotation).iter().for_each(|at| row[first(side) + at] = -height);
                 let stiffness = building.stiffness.of_storey(i).unwrap();
                 let yielding = building.yielding_storey(i);
                 let (force, ratio) = yielding.unwrap_or((f64::INFINITY, 1.0));
@@ -88,15 +103,35 @@ impl Piecewise<'_> {
         }
         for link in &scene.links {
             let mut row = DVector::zeros(n);
-            link.ends().for_each(|(side, end, weight)| row[first(side) + end.floor().unwrap()] = weight);
+            link.ends().for_each(|(side, end, weight)| row[place(side, end)] = weight);
             let Slip { force, ratio } = link.slip.unwrap_or(Slip { force: f64::INFINITY, ratio: 1.0 });
             damping += link.dashpot * &row * row.transpose();
             let (stiffness, limit) = (link.stiffness, force / link.stiffness);
             storeys.push(Storey { row, stiffness, limit, ratio, can_yield: link.slip.is_some() });
         }
-        let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, scene, &mass, first)).collect();
-        let displacements = all(|building| &building.initial_displacement);
-        let velocities = all(|building| &building.initial_velocity);
+        for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+            let spring = |row, stiffness| Storey { row, stiffness, limit: f64::INFINITY, ratio: 1.0, can_yield: false };
+            // Gravity on leans, which the rotation has no part in.
+            for (i, g) in building.gravity_stiffness().into_iter().enumerate().filter(|(_, g)| *g != 0.0) {
+                let at = storeys.iter().position(|storey: &Storey| storey.row[first(side) + i] == 1.0).unwrap();
+                let mut row = storeys[at].row.clone();
+                number(building, Place::Rotation).iter().for_each(|at| row[first(side) + at] = 0.0);
+                storeys.push(spring(row, -g));
+            }
+            let Some(Foundation { mass: m, inertia, sway, rocking }) = &building.foundation else { continue };
+            for (of, inertia, soil) in [(Place::Foundation, m, sway), (Place::Rotation, inertia, rocking)] {
+                let Some(soil) = soil else { continue };
+                let at = place(side, of);
+                (mass[at], pushed[at]) = (*inertia, if of == Place::Rotation { 0.0 } else { 1.0 });
+                let mut row = DVector::zeros(n);
+                row[at] = 1.0;
+                damping[(at, at)] += soil.dashpot;
+                storeys.push(spring(row, soil.stiffness));
+            }
+        }
+        let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, scene, &mass, place)).collect();
+        let displacements = all(|building| &building.initial_displacement, [0.0; 2]);
+        let velocities = all(|building| &building.initial_velocity, [0.0; 2]);
         let mut y = DVector::zeros(2 * n + 2);
         y.rows_mut(0, n).copy_from(&displacements);
         y.rows_mut(n, n).copy_from(&velocities);
@@ -107,7 +142,7 @@ impl Piecewise<'_> {
         });
         // No frequency is above the root of the trace.
         let springs = storeys.iter().map(|s| (&s.row, s.stiffness)).chain(pairs.iter().map(|p| (&p.row, p.stiffness)));
-        let trace: f64 = springs.map(|(row, k)| k * row.zip_map(&mass, |w, m| w * w / m).sum()).sum();
+        let trace: f64 = springs.map(|(row, k)| k.abs() * row.zip_map(&mass, |w, m| w * w / m).sum()).sum();
         Piecewise {
             plastic: plastic.collect(),
             cumulative: vec![0.0; storeys.len()],
@@ -120,6 +155,7 @@ impl Piecewise<'_> {
             yields: 0,
             impacts: 0,
             mass,
+            pushed,
             damping,
             storeys,
             pairs,
@@ -217,8 +253,8 @@ impl Piecewise<'_> {
         for i in 0..n {
             matrix[(i, n + i)] = 1.0;
             matrix.row_mut(n + i).copy_from(&(force.row(i) / self.mass[i]));
-            matrix[(n + i, 2 * n)] -= start;
-            matrix[(n + i, 2 * n + 1)] -= slope;
+            matrix[(n + i, 2 * n)] -= start * self.pushed[i];
+            matrix[(n + i, 2 * n + 1)] -= slope * self.pushed[i];
         }
         matrix[(2 * n + 1, 2 * n)] = 1.0;
         matrix
@@ -362,13 +398,30 @@ impl Piecewise<'_> {
 /// Between two impulses of a pair, s.
 const SHORTEST: f64 = 2e-3;
 
+/// The number of a displacement among those of its building: its floors, then the sway and the rotation of its foundation.
+fn number(building: &Building, place: Place) -> Option<usize> {
+    let (floors, foundation) = (building.mass.len(), building.foundation.as_ref());
+    let (sways, rocks) = foundation.map_or((false, false), |of| (of.sway.is_some(), of.rocking.is_some()));
+    match place {
+        Place::Floor(floor) => Some(floor),
+        Place::Foundation => sways.then_some(floors),
+        Place::Rotation => rocks.then_some(floors + usize::from(sways)),
+    }
+}
+
+/// How many there are.
+fn rows(building: &Building) -> usize {
+    let foundation = [Place::Foundation, Place::Rotation].map(|place| usize::from(number(building, place).is_some()));
+    building.mass.len() + foundation.iter().sum::<usize>()
+}
+
 /// A function of the state.
 type Watched<'p> = Box<dyn Fn(&DVector<f64>) -> f64 + 'p>;
 
 impl Pair {
-    fn of(pair: &ContactPair, scene: &Scene, mass: &DVector<f64>, first: impl Fn(Side) -> usize) -> Pair {
+    fn of(pair: &ContactPair, scene: &Scene, mass: &DVector<f64>, number: impl Fn(Side, Place) -> usize) -> Pair {
         let mut row = DVector::zeros(mass.len());
-        pair.row(scene).for_each(|share| row[first(share.side) + share.place.floor().unwrap()] += share.weight);
+        pair.row(scene).for_each(|share| row[number(share.side, share.place)] += share.weight);
         let reduced = 1.0 / row.zip_map(mass, |w: f64, m| w * w / m).sum();
         let (k, e) = (pair.law.stiffness, pair.law.restitution);
         let (stiffness, damping, restitution) = match pair.law.kind {
@@ -436,6 +489,32 @@ fn bisect(function: impl Fn(f64) -> f64, end: f64) -> f64 {
     high
 }
 
+/// Compares the motions of foundations; rotations are allowed what a tenth of a metre makes of a displacement.
+fn assert_foundations(
+    run: &Run,
+    other: &Piecewise,
+    row: impl Fn(Side, Place) -> Option<usize>,
+    (most, fastest, tolerance): (f64, f64, f64),
+) {
+    use FoundationOutput as F;
+    let of_sway = (Place::Foundation, [F::Displacement, F::Velocity], 1.0);
+    for (place, outputs, length) in [of_sway, (Place::Rotation, [F::Rotation, F::RotationRate], 0.1)] {
+        for side in [Side::Left, Side::Right] {
+            let Some(i) = row(side, place) else { continue };
+            let exact = [(other.displacement(i), most), (other.velocity(i), fastest)];
+            for (of, (exact, size)) in outputs.into_iter().zip(exact) {
+                let got = run.read(Output::Foundation(side, of));
+                let error = length * (got - exact).abs() / size;
+                assert!(
+                    error < tolerance,
+                    "{side:?} {of:?} at {} s: {got:e} not {exact:e}, off by {error:.1e}",
+                    other.time
+                );
+            }
+        }
+    }
+}
+
 /// Runs both side by side and compares them at many times; returns the other one at the end. `tolerance` is relative to the
 /// largest displacement and velocity of all floors so far.
 pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], tolerance: f64) -> Piecewise<'r> {
@@ -451,11 +530,19 @@ pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], 
             break;
         }
         run.to(time);
-        for i in 0..floors.len() {
+        let lefts = rows(&scene.left);
+        let row = |side: Side, place: Place| {
+            let of = number(scene.building(side), place);
+            of.map(|of| if side == Side::Left { of } else { lefts + of })
+        };
+        for &(side, floor) in &floors {
+            let i = row(side, Place::Floor(floor)).unwrap();
             most = most.max(other.displacement(i).abs());
             fastest = fastest.max(other.velocity(i).abs());
         }
-        for (i, &(side, floor)) in floors.iter().enumerate() {
+        assert_foundations(&run, &other, row, (most, fastest, tolerance));
+        for (storey, &(side, floor)) in floors.iter().enumerate() {
+            let i = row(side, Place::Floor(floor)).unwrap();
             let what = format!("{side:?} {floor} at {time} s, {} yields, {} impacts", other.yields, other.impacts);
             let near = |got: f64, expected: f64, size: f64, name: &str| {
                 let error = (got - expected).abs() / size;
@@ -464,12 +551,12 @@ pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], 
             near(run.displacement(side, floor), other.displacement(i), most, "displacement");
             near(run.velocity(side, floor), other.velocity(i), fastest, "velocity");
             let shown = run.storey(side, floor);
-            near(shown.plastic, other.plastic_now(i), most, "plastic drift");
-            let cumulative = other.cumulative_now(i);
+            near(shown.plastic, other.plastic_now(storey), most, "plastic drift");
+            let cumulative = other.cumulative_now(storey);
             near(shown.cumulative, cumulative, most + cumulative, "cumulative plastic drift");
-            if other.storeys[i].can_yield {
-                near(shown.shear, other.force(i, 0.0), other.storeys[i].stiffness * most, "shear");
-                near(shown.residual, other.residual(i), most, "residual drift");
+            if other.storeys[storey].can_yield {
+                near(shown.shear, other.force(storey, 0.0), other.storeys[storey].stiffness * most, "shear");
+                near(shown.residual, other.residual(storey), most, "residual drift");
             }
         }
         for l in 0..scene.links.len() {

@@ -2,6 +2,11 @@
 //! matrices, and the same run told in another way.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod closed_forms;
 #[path = "../common/mod.rs"]
 mod common;
+mod frames;
+#[path = "../physics/piecewise.rs"]
+mod piecewise;
 mod reference;
+mod soil;

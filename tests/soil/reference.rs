@@ -8,7 +8,7 @@ use pounding::scene::{self, Scene};
 use std::path::Path;
 
 /// Largest error of a motion, relative to the largest of its kind.
-const ALLOWED: f64 = 1e-12;
+const ALLOWED: f64 = 4e-14;
 
 fn file(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/soil/reference").join(name);

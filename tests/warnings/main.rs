@@ -6,6 +6,7 @@ mod gravity;
 mod levels;
 mod links;
 mod order;
+mod soil;
 mod yielding;
 
 use pounding::record::Record;

@@ -2,6 +2,7 @@
 
 mod buildings;
 mod contacts;
+mod foundations;
 mod gravity;
 mod links;
 mod meant;

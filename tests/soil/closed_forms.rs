@@ -1,0 +1,153 @@
+//! Frequencies, static displacements and positions of rest on soil, in closed form; the balance of moments at any time.
+
+use crate::common::{Run, scene};
+use crate::soil::{foundation, frame, run_for};
+use pounding::engine::{FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
+use pounding::scene::Scene;
+use std::f64::consts::PI;
+
+/// kg, N/m, m, and of the foundation kg and N/m.
+const ONE: (f64, f64, f64, f64, f64) = (1.8e5, 4e7, 6.0, 6e4, 1.2e8);
+
+fn one_storey(mass: f64, inertia: f64, rocking: Option<f64>) -> Scene {
+    let (m, k, h, _, kh) = ONE;
+    let rocking =
+        rocking.map_or(String::new(), |kr| format!("inertia = {inertia:?}\nrocking = {{ stiffness = {kr:?} }}\n"));
+    scene(&format!(
+        "name = \"One\"\n[left]\nmass = [{m:?}]\nheight = [{h:?}]\nstiffness = [{k:?}]\ndamping = {{ ratio = 0.0 }}\n\
+         [left.foundation]\nmass = {mass:?}\nsway = {{ stiffness = {kh:?} }}\n{rocking}"
+    ))
+}
+
+#[test]
+fn frequencies_of_one_storey_that_sways() {
+    let (m, k, _, m0, kh) = ONE;
+    let model = Model::new(&one_storey(m0, 0.0, None), None).unwrap();
+    let a = k / m + (k + kh) / m0;
+    let root = (a * a - 4.0 * k * kh / (m * m0)).sqrt();
+    let exact = [2.0 * k * kh / (m * m0) / (a + root), 0.5 * (a + root)].map(|w2| w2.sqrt() / (2.0 * PI));
+    for (got, exact) in model.system_frequencies().iter().zip(exact) {
+        assert!((got / exact - 1.0).abs() < 1e-15, "{got} Hz not {exact}");
+    }
+    // The building alone is that on a fixed base.
+    assert!((model.natural_frequencies(Side::Left)[0] / ((k / m).sqrt() / (2.0 * PI)) - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn light_foundations_lengthen_the_period_as_springs_in_a_row_do() {
+    let (_, k, h, _, kh) = ONE;
+    let kr = 2.4e9;
+    let exact = (1.0 + k / kh + k * h * h / kr).sqrt();
+    for share in [1e-6, 1e-9] {
+        let scene = one_storey(ONE.0 * share, ONE.0 * 36.0 * share, Some(kr));
+        let ratio = pounding::structure::period_ratio(&scene.left);
+        // A limit: the difference is that of the foundation's mass.
+        assert!((ratio / exact - 1.0).abs() < 0.5 * share + 1e-14, "{ratio} not {exact}");
+        assert!(share < 1e-7 || (ratio / exact - 1.0).abs() > 0.01 * share);
+    }
+}
+
+#[test]
+fn a_force_that_stays_bends_storey_and_soil() {
+    let (_, k, h, _, kh) = ONE;
+    let kr = 2.4e9;
+    let mut scene = one_storey(6e4, 9e5, Some(kr));
+    let soil = scene.left.foundation.as_mut().unwrap();
+    soil.sway.as_mut().unwrap().dashpot = 3e6;
+    soil.rocking.as_mut().unwrap().dashpot = 6e7;
+    scene.floor_forces = true;
+    let mut run = Run::new(&scene, None);
+    let force = 1e5;
+    run.state.set_floor_force(Side::Left, 0, force);
+    run.to(200.0);
+    let exact = force * (1.0 / k + 1.0 / kh + h * h / kr);
+    let near = |got: f64, exact: f64| assert!((got / exact - 1.0).abs() < 1e-12, "{got:e} not {exact:e}");
+    near(run.displacement(Side::Left, 0), exact);
+    for (of, exact) in
+        [(F::Displacement, force / kh), (F::Rotation, force * h / kr), (F::Force, force), (F::Moment, force * h)]
+    {
+        near(run.read(Output::Foundation(Side::Left, of)), exact);
+    }
+    near(run.read(Output::BaseShear(Side::Left)), force);
+}
+
+#[test]
+fn soil_as_stiff_as_rock_is_a_fixed_base() {
+    let fixed = run_for(&frame("damping = { ratio = 0.0 }\n", ""), 5.0);
+    let rock = foundation("sway = { stiffness = 9e16 }\ninertia = 3e5\nrocking = { stiffness = 1.2e18 }\n");
+    let stiff = run_for(&frame("damping = { ratio = 0.0 }\n", &rock), 5.0);
+    let peak = fixed.peak(PeakOf::Displacement(Side::Left, 1));
+    for floor in 0..2 {
+        let [fixed, stiff] = [&fixed, &stiff].map(|run| run.displacement(Side::Left, floor));
+        assert!((fixed - stiff).abs() < 1e-8 * peak, "{fixed:e} and {stiff:e}");
+    }
+}
+
+const SOIL: &str = "sway = { stiffness = 9e7, dashpot = 1.5e6 }\ninertia = 3e5\n\
+                    rocking = { stiffness = 1.2e9, dashpot = 4e6 }\n";
+const YIELDING: &str =
+    "yield_force = [9e4, 6e4]\npost_yield_ratio = [0.05, 0.0]\ndamping = { dashpots = [2e5, 1e5] }\n";
+
+#[test]
+fn storeys_that_have_yielded_rest_where_soil_and_gravity_hold_them() {
+    for gravity in [false, true] {
+        let keys = if gravity { YIELDING.to_owned() + "p_delta = true\n" } else { YIELDING.to_owned() };
+        let scene = frame(&keys, &foundation(SOIL));
+        let run = run_for(&scene, 200.0);
+        let (heights, g) = ([4.0, 3.0], scene.left.gravity_stiffness());
+        let of = |i: usize| {
+            let k = scene.left.stiffness.of_storey(i).unwrap();
+            let (theta, p) = (g[i] / k, run.storey(Side::Left, i).plastic);
+            (theta, g[i] * heights[i], (1.0 - [0.05, 0.0][i]) / (1.0 - theta) * p)
+        };
+        let sums =
+            (0..2).map(|i| (of(i), heights[i])).fold((0.0, 0.0), |(lost, moment), ((theta, weight, kept), h)| {
+                (lost + weight * h / (1.0 - theta), moment + weight * kept)
+            });
+        let rotation = sums.1 / (1.2e9 - sums.0);
+        assert!(gravity == (rotation != 0.0));
+        let at = |of| run.read(Output::Foundation(Side::Left, of));
+        let size = of(0).2.abs().max(of(1).2.abs());
+        assert!(size > 1e-3, "{size} m");
+        assert!((at(F::Rotation) - rotation).abs() < 1e-12 * size && at(F::Displacement).abs() < 1e-12 * size);
+        for (i, height) in heights.into_iter().enumerate() {
+            let (theta, _, kept) = of(i);
+            let exact = kept + theta / (1.0 - theta) * height * rotation;
+            let residual = run.storey(Side::Left, i).residual;
+            assert!((residual - exact).abs() < 1e-13 * size, "{residual:e} not {exact:e}");
+            let below = if i == 0 { at(F::Displacement) } else { run.displacement(Side::Left, i - 1) };
+            let drift = run.displacement(Side::Left, i) - below - height * at(F::Rotation);
+            assert!((drift - exact).abs() < 1e-12 * size, "{drift:e} not {exact:e}");
+        }
+    }
+}
+
+#[test]
+fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
+    let keys = YIELDING.to_owned() + "p_delta = true\n";
+    let scene = frame(&keys, &foundation(SOIL));
+    let mut run = Run::new(&scene, Some(&crate::soil::shaking()));
+    let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let mut rates = PointRates::default();
+    for k in 1..400 {
+        run.to(0.0123 * f64::from(k));
+        run.now().differentiate(&mut rates);
+        let at = |of| run.read(Output::Foundation(Side::Left, of));
+        let rate = |of| run.now().rates(&rates, Output::Foundation(Side::Left, of))[0];
+        let (spin, below) = (at(F::RotationRate), [at(F::Velocity), run.velocity(Side::Left, 0)]);
+        let shear = |i: usize| {
+            let drift_rate = run.velocity(Side::Left, i) - below[i] - [4.0, 3.0][i] * spin;
+            run.storey(Side::Left, i).shear + [2e5, 1e5][i] * drift_rate
+        };
+        let overturning = 4.0 * shear(0) + 3.0 * shear(1);
+        let moment = at(F::Moment) + 3e5 * rate(F::RotationRate);
+        let force = at(F::Force) + 3e4 * at(F::Acceleration);
+        let base = run.read(Output::BaseShear(Side::Left));
+        for (i, (one, other)) in [(moment, overturning), (force, base)].into_iter().enumerate() {
+            worst[i] = worst[i].max((one - other).abs());
+            largest[i] = largest[i].max(one.abs());
+        }
+    }
+    assert!(worst[0] < 1e-12 * largest[0] && worst[1] < 1e-12 * largest[1], "{worst:?} of {largest:?}");
+    assert!(run.storey(Side::Left, 0).plastic != 0.0);
+}
