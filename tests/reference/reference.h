@@ -224,7 +224,7 @@ typedef struct {
 typedef struct {
     const Scene *scene;
     Gauss gauss;
-    int entries[MAX_UNKNOWNS], column[MAX_UNKNOWNS][MAX_UNKNOWNS]; /* of the matrices below and of all forms, row by row */
+    int entries[MAX_UNKNOWNS], column[MAX_UNKNOWNS][MAX_UNKNOWNS]; /* of the matrices below, C and all forms */
     real k_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS], c_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS];
     real segment_time, segment_ground, segment_slope; /* ground acceleration of the present piece */
     Phases phases;

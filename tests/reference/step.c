@@ -78,7 +78,7 @@ void prepare_solver(Solver *solver, const Scene *scene, int stages)
         mark_used(&scene->lean[l].form, used);
     for (int i = 0; i < scene->unknowns; i++)
         for (int j = 0; j < scene->unknowns; j++)
-            if (used[i][j] || solver->k_over_m[i][j] != 0 || solver->c_over_m[i][j] != 0)
+            if (used[i][j] || scene->C[i][j] != 0 || solver->k_over_m[i][j] != 0 || solver->c_over_m[i][j] != 0)
                 solver->column[i][solver->entries[i]++] = j;
 }
 
