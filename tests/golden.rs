@@ -8,7 +8,7 @@
 mod common;
 
 use common::Run;
-use pounding::engine::{Episode, Side};
+use pounding::engine::{Episode, FoundationOutput, Output, Side};
 use pounding::record::Record;
 use pounding::scene::{self, Scene};
 use std::collections::HashMap;
@@ -49,13 +49,37 @@ impl Golden {
     }
 }
 
+/// What is shown of the motion of foundations: column, output and largest value.
+fn of_foundations(golden: &Golden) -> Vec<(String, Output, f64)> {
+    use FoundationOutput as F;
+    let names = [
+        ("displacement", F::Displacement),
+        ("rotation", F::Rotation),
+        ("velocity", F::Velocity),
+        ("rotation_rate", F::RotationRate),
+    ];
+    let is_of_foundation = |column: &&String| column.contains(".foundation.");
+    let found = golden.rows[0].keys().filter(is_of_foundation).map(|column| {
+        let (side, name) = column.split_once(".foundation.").unwrap();
+        let side = if side == "left" { Side::Left } else { Side::Right };
+        let (_, of) = names.iter().find(|(of, _)| *of == name).unwrap();
+        let largest = golden.rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
+        (column.clone(), Output::Foundation(side, *of), largest)
+    });
+    found.collect()
+}
+
 /// Worst error per unit of sensitivity of what a run shows at the golden times.
 fn worst_motion(golden: &Golden, run: &mut Run, mut advance: impl FnMut(&mut Run, f64)) -> f64 {
     let mut worst = 0.0_f64;
     let (u, v, e) = (golden.largest("displacement"), golden.largest("velocity"), golden.largest("energy"));
+    let foundations = of_foundations(golden);
     for row in &golden.rows {
         advance(run, row["time"]);
         let sensitivity = row["sensitivity"].max(1.0);
+        for (column, of, largest) in &foundations {
+            worst = worst.max((run.read(*of) - row[column]).abs() / largest / sensitivity);
+        }
         for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
             for floor in 0..run.model.floors(side) {
                 let exact = |quantity: &str| row[&format!("{name}.{quantity}[{}]", floor + 1)];
@@ -73,8 +97,9 @@ fn worst_motion(golden: &Golden, run: &mut Run, mut advance: impl FnMut(&mut Run
             ("impact", energy.impact),
             ("hysteretic", energy.hysteretic),
             ("gravity", energy.gravity),
+            ("soil", energy.soil),
         ] {
-            // Only where storeys can yield, or gravity pushes on those that lean.
+            // Only where storeys can yield, gravity pushes on those that lean, or foundations stand on soil.
             let Some(exact) = row.get(&format!("energy.{name}")).or((value == 0.0).then_some(&0.0)) else {
                 panic!("no energy.{name} is expected")
             };
@@ -352,6 +377,16 @@ fn gravity_on_storeys_that_lean() {
 #[test]
 fn buildings_with_links_between_them() {
     for (name, allowed) in [("linked", 2e-14), ("linked_friction", 2e-13), ("linked_walls", 5e-14)] {
+        compare(&format!("tests/reference/scenes/{name}.toml"), name, allowed);
+    }
+}
+
+/// What storeys that yield and a link that slips do is compared in `golden_yielding.rs`.
+#[test]
+fn foundations_that_sway_and_rock() {
+    for (name, allowed) in
+        [("soil", 1.5e-13), ("soil_yielding", 6e-13), ("soil_columns", 4e-14), ("soil_leaning", 8e-15)]
+    {
         compare(&format!("tests/reference/scenes/{name}.toml"), name, allowed);
     }
 }

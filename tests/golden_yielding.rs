@@ -220,6 +220,16 @@ fn devices_that_slip_between_floors_and_to_the_ground() {
 }
 
 #[test]
+fn storeys_that_yield_on_coupled_foundations() {
+    compare("soil_yielding", 2e-13, 234);
+}
+
+#[test]
+fn a_bearing_of_a_foundation_that_slips() {
+    compare("soil_leaning", 8e-15, 12);
+}
+
+#[test]
 fn a_building_that_gravity_makes_lean_on_its_neighbour() {
     compare("p_delta", 4e-14, 100);
     assert_eq!(collapse("p_delta"), None);

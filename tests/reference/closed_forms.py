@@ -1,6 +1,6 @@
 """Checks the reference solver itself against closed forms: free impacts of two masses, of a mass with columns and with
 a wall, stereomechanical contact of two oscillators, impacts of three masses at once, storeys that yield, linked
-oscillators.
+oscillators, buildings on soil.
 
     python3 tests/reference/closed_forms.py
 
@@ -14,9 +14,10 @@ import tempfile
 from decimal import Decimal
 
 import link_forms
+import soil_forms
 import yielding_forms
 
-FAMILIES = yielding_forms.FAMILIES + link_forms.FAMILIES
+FAMILIES = yielding_forms.FAMILIES + link_forms.FAMILIES + soil_forms.FAMILIES
 HERE = pathlib.Path(__file__).parent
 M1, M2, K, V = 50000.0, 75000.0, 3.0e7, 0.5
 M = M1 * M2 / (M1 + M2)
@@ -179,9 +180,9 @@ def episodes(program, folder, scene):
 
 
 def from_tables(program, folder, scene, checks):
-    """(scene, quantity, expected, tolerance, values by quantity) for checks of yielding_forms and link_forms."""
+    """(scene, quantity, expected, tolerance, values by quantity) for checks of yielding_forms, link_forms and soil_forms."""
     run(program, folder, scene)
-    tables = {name: table(folder, name) for name in ("displacements", "impacts", "storeys", "yields")}
+    tables = {name: table(folder, name) for name, *_ in checks}
     for name, at, column, expected, tolerance in checks:
         if column == "rows":
             found = len(tables[name])

@@ -6,44 +6,58 @@
 
 /* Derivatives of the accelerations by the displacements and velocities, in double precision. */
 typedef struct {
-    double k_over_m[MAX_FLOORS][MAX_FLOORS], c_over_m[MAX_FLOORS][MAX_FLOORS];
+    double k_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS], c_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS];
     double by_d[MAX_STAGES][MAX_CONTACTS], by_rate[MAX_STAGES][MAX_CONTACTS]; /* of the contact forces */
-    double weight[MAX_CONTACTS][MAX_WEIGHTS], weight_over_m[MAX_CONTACTS][MAX_WEIGHTS];
+    double weight[MAX_CONTACTS][MAX_WEIGHTS], push[MAX_CONTACTS][MAX_UNKNOWNS]; /* of the contacts' forms */
     double held_inverse[MAX_CONTACTS][MAX_CONTACTS];
-    double relief[MAX_FLOORS]; /* of the stiffness of storeys that yield */
-    double gravity[MAX_FLOORS]; /* N/m, of the storey below each floor */
 } Jacobian;
 
-static void round_rows(const Solver *solver, Jacobian *jacobian)
+static void round_forms(const Solver *solver, Jacobian *jacobian)
 {
     const Scene *scene = solver->scene;
     const Phases *phases = &solver->phases;
-    for (int c = 0; c < scene->contacts; c++)
-        for (int w = 0; w < scene->contact[c].weights; w++) {
-            real weight = scene->contact[c].weight[w];
-            jacobian->weight[c][w] = (double)weight;
-            jacobian->weight_over_m[c][w] = (double)(weight / scene->mass[scene->contact[c].floor[w]]);
-        }
+    for (int c = 0; c < scene->contacts; c++) {
+        const Form *form = &scene->contact[c].form;
+        for (int w = 0; w < form->weights; w++)
+            jacobian->weight[c][w] = (double)form->weight[w];
+        for (int p = 0; p < form->pushes; p++)
+            jacobian->push[c][p] = (double)form->push[p];
+    }
     for (int i = 0; i < phases->held; i++)
         for (int j = 0; j < phases->held; j++)
             jacobian->held_inverse[i][j] = (double)phases->held_inverse[i][j];
-    for (int s = 0; s < scene->storeys; s++)
-        jacobian->relief[s] =
-            phases->yielding[s] ? (double)((1 - scene->storey[s].ratio) * scene->storey[s].k) : 0;
-    for (int i = 0; i < scene->floors; i++)
-        jacobian->gravity[i] = (double)scene->gravity[i];
 }
 
-static void differentiate(const Solver *solver, const Step *step, Jacobian *jacobian)
+/* Takes a stiffness along a form away. */
+static void soften(Jacobian *jacobian, const Form *form, real stiffness)
+{
+    for (int p = 0; p < form->pushes; p++)
+        for (int w = 0; w < form->weights; w++)
+            jacobian->k_over_m[form->pushed[p]][form->of[w]] -= (double)(form->push[p] * form->weight[w] * stiffness);
+}
+
+/* Storeys that yield have less stiffness, and so have those on whose lean gravity acts. */
+static void round_matrices(const Solver *solver, Jacobian *jacobian)
 {
     const Scene *scene = solver->scene;
-    for (int i = 0; i < scene->floors; i++)
+    for (int i = 0; i < scene->unknowns; i++)
         for (int e = 0; e < solver->entries[i]; e++) {
             int k = solver->column[i][e];
             jacobian->k_over_m[i][k] = (double)solver->k_over_m[i][k];
             jacobian->c_over_m[i][k] = (double)solver->c_over_m[i][k];
         }
-    round_rows(solver, jacobian);
+    for (int s = 0; s < scene->storeys; s++)
+        if (solver->phases.yielding[s])
+            soften(jacobian, &scene->storey[s].form, (1 - scene->storey[s].ratio) * scene->storey[s].k);
+    for (int l = 0; l < scene->leans; l++)
+        soften(jacobian, &scene->lean[l].form, scene->lean[l].stiffness);
+}
+
+static void differentiate(const Solver *solver, const Step *step, Jacobian *jacobian)
+{
+    const Scene *scene = solver->scene;
+    round_matrices(solver, jacobian);
+    round_forms(solver, jacobian);
     for (int j = 0; j < solver->gauss.stages; j++)
         for (int c = 0; c < scene->contacts; c++) {
             const Point *p = &step->point[j + 1];
@@ -59,21 +73,21 @@ static void differentiate(const Solver *solver, const Step *step, Jacobian *jaco
         }
 }
 
-/* The row of contact c times a vector of all floors. */
-static double row_times(const Solver *solver, const Jacobian *jacobian, int c, const double *floors)
+/* The form of contact c times a vector of all unknowns. */
+static double along_contact(const Solver *solver, const Jacobian *jacobian, int c, const double *unknowns)
 {
-    const Contact *contact = &solver->scene->contact[c];
+    const Form *form = &solver->scene->contact[c].form;
     double sum = 0;
-    for (int w = 0; w < contact->weights; w++)
-        sum += jacobian->weight[c][w] * floors[contact->floor[w]];
+    for (int w = 0; w < form->weights; w++)
+        sum += jacobian->weight[c][w] * unknowns[form->of[w]];
     return sum;
 }
 
-static void push(const Solver *solver, const Jacobian *jacobian, int c, double force, double *a)
+static void push_apart(const Solver *solver, const Jacobian *jacobian, int c, double force, double *a)
 {
-    const Contact *contact = &solver->scene->contact[c];
-    for (int w = 0; w < contact->weights; w++)
-        a[contact->floor[w]] -= jacobian->weight_over_m[c][w] * force;
+    const Form *form = &solver->scene->contact[c].form;
+    for (int p = 0; p < form->pushes; p++)
+        a[form->pushed[p]] -= jacobian->push[c][p] * force;
 }
 
 /* The reactions of the contacts that are held together. */
@@ -82,39 +96,12 @@ static void push_held(const Solver *solver, const Jacobian *jacobian, double *a)
     const Phases *phases = &solver->phases;
     double rate[MAX_CONTACTS];
     for (int k = 0; k < phases->held; k++)
-        rate[k] = row_times(solver, jacobian, phases->held_contact[k], a);
+        rate[k] = along_contact(solver, jacobian, phases->held_contact[k], a);
     for (int k = 0; k < phases->held; k++) {
         double force = 0;
         for (int l = 0; l < phases->held; l++)
             force += jacobian->held_inverse[k][l] * rate[l];
-        push(solver, jacobian, phases->held_contact[k], force, a);
-    }
-}
-
-/* Storeys that yield have less stiffness. */
-static void relieve_storeys(const Solver *solver, const Jacobian *jacobian, const double *u, double *a)
-{
-    for (int s = 0; s < solver->scene->storeys; s++) {
-        int above = solver->scene->storey[s].above, below = solver->scene->storey[s].below;
-        if (jacobian->relief[s] == 0)
-            continue;
-        double force = jacobian->relief[s] * (u[above] - (below < 0 ? 0 : u[below]));
-        a[above] += force / (double)solver->scene->mass[above];
-        if (below >= 0)
-            a[below] -= force / (double)solver->scene->mass[below];
-    }
-}
-
-/* So have storeys on whose lean gravity acts. */
-static void push_storeys_on(const Solver *solver, const Jacobian *jacobian, const double *u, double *a)
-{
-    const Scene *scene = solver->scene;
-    for (int i = 0; i < scene->floors; i++) {
-        bool lowest = stands_on_ground(scene, i);
-        double force = jacobian->gravity[i] * (u[i] - (lowest ? 0 : u[i - 1]));
-        a[i] += force / (double)scene->mass[i];
-        if (!lowest)
-            a[i - 1] -= force / (double)scene->mass[i - 1];
+        push_apart(solver, jacobian, phases->held_contact[k], force, a);
     }
 }
 
@@ -122,7 +109,7 @@ static void push_storeys_on(const Solver *solver, const Jacobian *jacobian, cons
 static void apply(const Solver *solver, const Jacobian *jacobian, int j, const double *u, const double *v, double *a)
 {
     const Scene *scene = solver->scene;
-    for (int i = 0; i < scene->floors; i++) {
+    for (int i = 0; i < scene->unknowns; i++) {
         a[i] = 0;
         for (int e = 0; e < solver->entries[i]; e++) {
             int k = solver->column[i][e];
@@ -132,16 +119,13 @@ static void apply(const Solver *solver, const Jacobian *jacobian, int j, const d
     for (int c = 0; c < scene->contacts; c++) {
         double by_d = jacobian->by_d[j][c], by_rate = jacobian->by_rate[j][c];
         if (by_d != 0 || by_rate != 0)
-            push(solver, jacobian, c,
-                 by_d * row_times(solver, jacobian, c, u) + by_rate * row_times(solver, jacobian, c, v), a);
+            push_apart(solver, jacobian, c,
+                       by_d * along_contact(solver, jacobian, c, u) + by_rate * along_contact(solver, jacobian, c, v), a);
     }
-    relieve_storeys(solver, jacobian, u, a);
-    if (scene->has_gravity)
-        push_storeys_on(solver, jacobian, u, a);
     push_held(solver, jacobian, a);
 }
 
-typedef double StageVectors[MAX_STAGES][MAX_FLOORS];
+typedef double StageVectors[MAX_STAGES][MAX_UNKNOWNS];
 
 static void integrate(int stages, int floors, const double *weight, StageVectors of, double *out)
 {
@@ -157,8 +141,8 @@ static double sweep(const Solver *solver, const Jacobian *jacobian, double weigh
                     StageVectors r, StageVectors a)
 {
     static StageVectors v;
-    int n = solver->gauss.stages, floors = solver->scene->floors;
-    double u[MAX_FLOORS], product[MAX_FLOORS], change = 0, size = 0;
+    int n = solver->gauss.stages, floors = solver->scene->unknowns;
+    double u[MAX_UNKNOWNS], product[MAX_UNKNOWNS], change = 0, size = 0;
     for (int j = 0; j < n; j++)
         integrate(n, floors, weight[j], a, v[j]);
     for (int j = 0; j < n; j++) {
@@ -174,11 +158,11 @@ static double sweep(const Solver *solver, const Jacobian *jacobian, double weigh
     return size > 0 ? change / size : 0;
 }
 
-bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_FLOORS])
+bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_UNKNOWNS])
 {
     static Jacobian jacobian;
     static StageVectors a, r;
-    int n = solver->gauss.stages, floors = solver->scene->floors;
+    int n = solver->gauss.stages, floors = solver->scene->unknowns;
     double weight[MAX_STAGES][MAX_STAGES], change = 1;
     differentiate(solver, step, &jacobian);
     for (int j = 0; j < n; j++) {

@@ -95,8 +95,8 @@ real guard_scale(const Solver *solver, Guard guard)
         return guard.quantity == TURN ? solver->v_scale : solver->u_scale;
     const Contact *contact = &solver->scene->contact[guard.of];
     real largest = 0; /* stiffness over mass */
-    for (int w = 0; w < contact->weights; w++)
-        largest = fmaxq(largest, solver->k_over_m[contact->floor[w]][contact->floor[w]]);
+    for (int w = 0; w < contact->form.weights; w++)
+        largest = fmaxq(largest, solver->k_over_m[contact->form.of[w]][contact->form.of[w]]);
     switch (guard.quantity) {
     case PENETRATION:
         return solver->u_scale;

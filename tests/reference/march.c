@@ -9,9 +9,12 @@ static real smaller(real a, real b) { return a < b ? a : b; }
 
 void update_scales(Run *run)
 {
-    for (int i = 0; i < run->scene->floors; i++) {
-        run->solver.u_scale = fmaxq(run->solver.u_scale, fabsq(run->now.u[i]));
-        run->solver.v_scale = fmaxq(run->solver.v_scale, fabsq(run->now.v[i]));
+    real u[MAX_UNKNOWNS], v[MAX_UNKNOWNS];
+    absolute(run->scene, run->now.u, u);
+    absolute(run->scene, run->now.v, v);
+    for (int i = 0; i < run->scene->unknowns; i++) {
+        run->solver.u_scale = fmaxq(run->solver.u_scale, fmaxq(fabsq(run->now.u[i]), fabsq(u[i])));
+        run->solver.v_scale = fmaxq(run->solver.v_scale, fmaxq(fabsq(run->now.v[i]), fabsq(v[i])));
     }
 }
 
@@ -21,17 +24,21 @@ static void add_energy(Run *run, const Step *step)
     for (int j = 0; j < run->solver.gauss.stages; j++) {
         const Point *p = &step->point[j + 1];
         real weight = run->solver.gauss.weight[j] * step->dt_dx[j], input = 0, viscous = 0, contacts = 0;
-        for (int i = 0; i < scene->floors; i++) {
+        real soil = 0, speed[MAX_UNKNOWNS];
+        absolute(scene, p->v, speed);
+        for (int i = 0; i < scene->unknowns; i++) {
             real damping = 0;
             for (int e = 0; e < run->solver.entries[i]; e++)
                 damping += scene->C[i][run->solver.column[i][e]] * p->v[run->solver.column[i][e]];
-            input -= scene->mass[i] * p->ground * p->v[i];
+            input -= scene->pulled[i] * p->ground * speed[i];
             viscous += p->v[i] * damping;
+            soil += scene->soil[i] * p->v[i] * p->v[i];
         }
         for (int c = 0; c < scene->contacts; c++)
             contacts += p->force[c] * p->rate[c];
         run->energy.input += weight * input;
         run->energy.viscous += weight * viscous;
+        run->energy.soil += weight * soil;
         run->energy.impact += weight * contacts;
     }
 }

@@ -45,41 +45,36 @@ static void write_header(FILE *file, const char *made_by, const Scene *scene, co
     }
 }
 
-/* Of a floor or storey, by its place in the vector of all floors. */
-static void write_column(FILE *file, const Scene *scene, const char *quantity, int floor)
-{
-    bool left = floor < scene->left_floors;
-    fprintf(file, ",%s.%s[%d]", left ? "left" : "right", quantity, 1 + (left ? floor : floor - scene->left_floors));
-}
+static const char *const places[] = {"left", "right", "link"};
 
-/* Of a storey that can yield, or a link that slips. */
-static void write_storey_column(FILE *file, const Scene *scene, const char *quantity, const Storey *storey)
+/* Of floors and foundations, in the order of the unknowns; the ways in which these move have names of their own. */
+static void write_columns(FILE *file, const Scene *scene, const char *of_floor, const char *of_sway, const char *of_rocking)
 {
-    if (storey->link)
-        fprintf(file, ",link.%s[%d]", quantity, storey->link);
-    else
-        write_column(file, scene, quantity, storey->above);
-}
-
-static void write_columns(FILE *file, const Scene *scene, const char *quantity)
-{
-    for (int i = 0; i < scene->floors; i++)
-        write_column(file, scene, quantity, i);
+    for (int i = 0; i < scene->unknowns; i++)
+        for (Place b = LEFT; b <= RIGHT; b++) {
+            const Building *building = &scene->building[b];
+            int floor = i - building->first;
+            if (floor >= 0 && floor < building->floors)
+                fprintf(file, ",%s.%s[%d]", places[b], of_floor, 1 + floor);
+            else if (i == building->sway || i == building->rocking)
+                fprintf(file, ",%s.foundation.%s", places[b], i == building->sway ? of_sway : of_rocking);
+        }
 }
 
 static void write_displacements(FILE *file, const Scene *scene, const Solution *s, const Proof *proof)
 {
     fprintf(file, "time");
-    write_columns(file, scene, "displacement");
-    write_columns(file, scene, "velocity");
-    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s%s%s\n",
-            scene->storeys ? ",energy.hysteretic" : "", scene->has_gravity ? ",energy.gravity" : "", proof ? ",sensitivity" : "");
+    write_columns(file, scene, "displacement", "displacement", "rotation");
+    write_columns(file, scene, "velocity", "velocity", "rotation_rate");
+    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s%s%s%s\n",
+            scene->storeys ? ",energy.hysteretic" : "", scene->leans ? ",energy.gravity" : "",
+            scene->has_foundation ? ",energy.soil" : "", proof ? ",sensitivity" : "");
     for (int r = 0; r < s->rows; r++) {
         const Row *row = &s->row[r];
         fprintf(file, "%.17g", (double)row->time);
-        for (int i = 0; i < scene->floors; i++)
+        for (int i = 0; i < scene->unknowns; i++)
             put(file, row->u[i]);
-        for (int i = 0; i < scene->floors; i++)
+        for (int i = 0; i < scene->unknowns; i++)
             put(file, row->v[i]);
         put(file, row->energy.input);
         put(file, row->energy.kinetic);
@@ -88,8 +83,10 @@ static void write_displacements(FILE *file, const Scene *scene, const Solution *
         put(file, row->energy.impact);
         if (scene->storeys)
             put(file, row->energy.hysteretic);
-        if (scene->has_gravity)
+        if (scene->leans)
             put(file, row->energy.gravity);
+        if (scene->has_foundation)
+            put(file, row->energy.soil);
         if (proof)
             fprintf(file, ",%.2e", proof->sensitivity[r]);
         fprintf(file, "\n");
@@ -129,7 +126,7 @@ static void write_storeys(FILE *file, const Scene *scene, const Solution *soluti
     fprintf(file, "time");
     for (int q = 0; q < 6; q++)
         for (int s = 0; s < scene->storeys; s++)
-            write_storey_column(file, scene, quantities[q], &scene->storey[s]);
+            fprintf(file, ",%s.%s[%d]", places[scene->storey[s].place], quantities[q], scene->storey[s].number);
     fprintf(file, "\n");
     for (const Row *row = solution->row; row < solution->row + solution->rows; row++) {
         fprintf(file, "%.17g", (double)row->time);
@@ -150,10 +147,8 @@ static void write_yields(FILE *file, const Scene *scene, const Solution *solutio
     static const char *const kinds[] = {"collapses -", "yields -", "unloads", "yields +", "collapses +"};
     fprintf(file, "building,storey,kind,time_s,drift_m,plastic_drift_m,drift_rate_m_s\n");
     for (const Switch *at = solution->switched; at < solution->switched + solution->switches; at++) {
-        int floor = scene->storey[at->storey].above, link = scene->storey[at->storey].link;
-        bool left = floor < scene->left_floors;
-        fprintf(file, "%s,%d,%s", link ? "link" : left ? "left" : "right",
-                link ? link : 1 + (left ? floor : floor - scene->left_floors), kinds[at->direction + 2]);
+        const Storey *storey = &scene->storey[at->storey];
+        fprintf(file, "%s,%d,%s", places[storey->place], storey->number, kinds[at->direction + 2]);
         put(file, at->time);
         put(file, at->drift);
         put(file, at->plastic);

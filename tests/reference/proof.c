@@ -7,7 +7,7 @@
 static real largest_difference(const Scene *scene, const Row *a, const Row *b, bool velocity)
 {
     real largest = 0;
-    for (int i = 0; i < scene->floors; i++)
+    for (int i = 0; i < scene->unknowns; i++)
         largest = fmaxq(largest, velocity ? fabsq(a->v[i] - b->v[i]) : fabsq(a->u[i] - b->u[i]));
     return largest;
 }
@@ -110,7 +110,7 @@ static void find_sensitivity(const Scene *scene, const Solution *best, Proof *pr
     changed.record.acceleration = malloc((scene->record.count + 1) * sizeof(real));
     for (int i = 0; i < scene->record.count; i++)
         changed.record.acceleration[i] = scene->record.acceleration[i] * shaken(part);
-    for (int i = 0; i < scene->floors; i++) {
+    for (int i = 0; i < scene->unknowns; i++) {
         changed.u0[i] *= shaken(part);
         changed.v0[i] *= shaken(part);
     }

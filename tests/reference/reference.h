@@ -7,7 +7,7 @@
 
 typedef __float128 real;
 
-enum { MAX_FLOORS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32, MAX_WEIGHTS = 4 };
+enum { MAX_UNKNOWNS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32, MAX_WEIGHTS = 8 };
 
 /* ---- scene.c: what is to be solved ---- */
 
@@ -25,22 +25,30 @@ typedef struct {
     bool exact_clock; /* false: no such q up to 10 exists, s only tames the singularity */
 } Law;
 
-/* d = sum of weight times displacement of a few floors, minus the gap. A force F pushes each of them with -weight F. */
+/* A distance that forces can act along: a sum of weights times a few unknowns. */
 typedef struct {
-    int weights;
-    int floor[MAX_WEIGHTS]; /* counted from 0 in the vector of all floors */
+    int weights, of[MAX_WEIGHTS]; /* the unknowns */
     real weight[MAX_WEIGHTS];
+    int pushes, pushed[MAX_UNKNOWNS]; /* the unknowns that a unit force along it accelerates, */
+    real push[MAX_UNKNOWNS];          /* and how: mass matrix^-1 times the weights */
+} Form;
+
+/* d = its form minus the gap. A force F is compression: its form times -F. */
+typedef struct {
+    Form form;
     real gap;
-    real mass; /* 1 / (sum of weight^2 / mass of the floor) */
+    real mass; /* 1 / (weights times pushes of its form) */
     Law law;
 } Contact;
+
+typedef enum { LEFT, RIGHT, LINK } Place;
 
 /* A storey that can yield, bilinear with kinematic hardening: its shear is ratio k drift + (1 - ratio) k z, z being the
    drift without the plastic drift, and |z| <= limit. The spring of a link that slips is one as well. */
 typedef struct {
-    int link; /* its number, from 1, where it is the spring of a link; 0: a storey */
-    int above, below; /* its floors in the vector of all floors, those on the left and on the right of a link; below is -1
-                         on the ground */
+    Place place;
+    int number; /* from 1, of the storey of its building, or of the link */
+    Form form; /* its drift; of a link: how much nearer its ends have come */
     real k, ratio, force, limit; /* limit = force / k */
     real collapse; /* |drift| at which it has collapsed, which ends the run; 0: never */
 } Storey;
@@ -50,17 +58,40 @@ typedef struct {
     real *time, *acceleration; /* scaled */
 } Record;
 
+/* The unknowns of a building are the displacements of its floors relative to its foundation, which may sway and rock: a
+   floor moves by its own unknown + that of swaying + its level times that of rocking. */
 typedef struct {
-    int left_floors, right_floors, floors; /* left floors first in every vector */
-    real mass[MAX_FLOORS], u0[MAX_FLOORS], v0[MAX_FLOORS];
-    real K[MAX_FLOORS][MAX_FLOORS], C[MAX_FLOORS][MAX_FLOORS]; /* K of the columns, without gravity */
-    real gravity[MAX_FLOORS]; /* weight over height of the storey below each floor, N/m; 0: none acts on its lean */
-    bool has_gravity;
+    int first, floors;       /* the lowest floor in the vector of all unknowns; their number */
+    int sway, rocking;       /* unknowns of the foundation, m and rad (positive: leans to the right); -1: it does not move so */
+    real level[MAX_UNKNOWNS]; /* m, of its floors above the foundation; 0 where that does not rock */
+} Building;
+
+/* Gravity on a storey that leans. */
+typedef struct {
+    Form form;      /* the lean: drift, and height times the rotation of the foundation */
+    real stiffness; /* weight over height, N/m */
+} Lean;
+
+typedef struct {
+    int unknowns;         /* those of the left building first in every vector, floors before foundation */
+    Building building[2]; /* LEFT, RIGHT; the second may have no floors */
+    real mass[MAX_UNKNOWNS]; /* of floors and foundations; where a foundation rocks, its moment of inertia and theirs */
+    real carried[MAX_UNKNOWNS]; /* how fast the unknowns change where everything on the ground moves with 1 m/s */
+    real pulled[MAX_UNKNOWNS];  /* masses on which the ground acts: those in `mass`, but no inertia */
+    real soil[MAX_UNKNOWNS]; /* dashpots under the foundations, which are in C as well */
+    bool has_foundation;
+    bool complete; /* the buildings are: masses, leans and foundations are known */
+    real factor[MAX_UNKNOWNS][MAX_UNKNOWNS]; /* of the mass matrix: L below the diagonal, D on it, of L D L' */
+    real u0[MAX_UNKNOWNS], v0[MAX_UNKNOWNS];
+    real K[MAX_UNKNOWNS][MAX_UNKNOWNS], C[MAX_UNKNOWNS][MAX_UNKNOWNS]; /* K of the columns, without gravity */
+    real gravity[MAX_UNKNOWNS]; /* weight over height of the storey below each floor, N/m; 0: none acts on its lean */
+    int leans;
+    Lean lean[MAX_UNKNOWNS];
     int contacts;
     Contact contact[MAX_CONTACTS];
     int storeys; /* only those that can yield; links that slip are the last */
     int links;
-    Storey storey[MAX_FLOORS];
+    Storey storey[MAX_UNKNOWNS];
     Record record;
     real min_approach_velocity;
     double output_step, stop;
@@ -72,32 +103,42 @@ void read_scene(const char *path, Scene *scene);
 /* Ends the program with a message. */
 _Noreturn void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* ---- row.c: contacts as rows of weights over the floors ---- */
+/* ---- form.c: distances that forces act along ---- */
 
-void add_weight(Contact *contact, int floor, real weight);
-real reduced_mass(const Scene *scene, const Contact *contact);
-/* The row of a contact times a vector of all floors. */
-real along(const Contact *contact, const real *floors);
-/* What a force (impulse) of a contact does to accelerations (velocities) of all floors. */
-void push_apart(const Scene *scene, const Contact *contact, real force, real *floors);
-/* What a unit force of contact b takes from the relative acceleration of contact a. */
-real coupling(const Scene *scene, const Contact *a, const Contact *b);
-/* Drift of a storey from displacements, its rate from velocities, and so on. */
-real drift_of(const Storey *storey, const real *floors);
-/* What a force in a storey that drives its floors apart does to the accelerations of all floors. */
-void drive_storey(const Scene *scene, const Storey *storey, real force, real *floors);
+void add_weight(Form *form, int unknown, real weight);
+/* Works out what a force along a form does; weights and masses are complete. */
+void find_pushes(const Scene *scene, Form *form);
+/* A form times a vector of all unknowns. */
+real along(const Form *form, const real *unknowns);
+/* What a force along a form does to the accelerations (an impulse: velocities) of all unknowns. */
+void push(const Form *form, real force, real *unknowns);
+/* What a unit force along b does to the acceleration of a. */
+real coupling(const Form *a, const Form *b);
 /* Solves a x = b for a symmetric positive definite a of order n, which is overwritten; x replaces b. */
 void solve_linear(int n, real a[MAX_CONTACTS][MAX_CONTACTS], real *b);
 
+/* ---- foundation.c: floors on foundations that move ---- */
+
+/* Adds weight times the displacement of something that moves with a foundation, at a level above it. */
+void add_rigid(const Scene *scene, Form *form, Place building, real level, real weight);
+/* Adds weight times the displacement of a floor, from 1; 0: the foundation. */
+void add_floor(const Scene *scene, Form *form, Place building, int floor, real weight);
+/* Factors the mass matrix of the unknowns. */
+void factor_masses(Scene *scene);
+/* Replaces a vector by the mass matrix^-1 times it. */
+void divide_by_masses(const Scene *scene, real *unknowns);
+/* Displacements relative to the ground of everything in `mass`, from the unknowns; velocities alike. */
+void absolute(const Scene *scene, const real *unknowns, real *out);
+
 /* ---- gravity.c: weights on storeys that lean ---- */
 
-/* Whether the storey below a floor is the lowest of its building. */
-bool stands_on_ground(const Scene *scene, int floor);
-/* What gravity does to the accelerations of all floors, from displacements; to their rates, from velocities. */
-void push_on(const Scene *scene, const real *lean, real *floors);
+/* The storeys on which gravity acts, when the buildings are complete. */
+void find_leans(Scene *scene);
+/* What gravity does to the accelerations of all unknowns, from displacements; to their rates, from velocities. */
+void push_on(const Scene *scene, const real *lean, real *unknowns);
 /* What weights have given: minus the work of gravity from the upright position on. */
 real gravity_energy(const Scene *scene, const real *displacements);
-/* An entry of the stiffness matrix of the elastic buildings under gravity. */
+/* An entry of the stiffness matrix of the elastic buildings under gravity, each on a base that does not move. */
 real stiffness_under_gravity(const Scene *scene, int i, int j);
 
 /* ---- structure.c: damping matrices from ratios, which are those of the buildings under gravity ---- */
@@ -145,10 +186,10 @@ void integral_row(const Gauss *gauss, real x, real *row);
 /* Everything known at one time. */
 typedef struct {
     real t, ground;
-    real u[MAX_FLOORS], v[MAX_FLOORS], a[MAX_FLOORS]; /* relative to the ground */
+    real u[MAX_UNKNOWNS], v[MAX_UNKNOWNS], a[MAX_UNKNOWNS]; /* the unknowns */
     real d[MAX_CONTACTS], rate[MAX_CONTACTS], rate_change[MAX_CONTACTS], force[MAX_CONTACTS];
-    real z[MAX_FLOORS], plastic[MAX_FLOORS]; /* of the storeys that can yield: elastic and plastic part of the drift */
-    real drift_rate[MAX_FLOORS], drift_change[MAX_FLOORS]; /* its first and second derivative */
+    real z[MAX_UNKNOWNS], plastic[MAX_UNKNOWNS]; /* of the storeys that can yield: elastic and plastic part of the drift */
+    real drift_rate[MAX_UNKNOWNS], drift_change[MAX_UNKNOWNS]; /* its first and second derivative */
 } Point;
 
 /* How time runs with x in [0, 1]: t = t0 + H x, H x^q, or H (1 - (1-x)^q). */
@@ -164,7 +205,7 @@ typedef struct {
     real V[MAX_CONTACTS]; /* divisor of the law: approach velocity, not below the floor; 0: no damping */
     int held, held_contact[MAX_CONTACTS]; /* those that are STUCK */
     real held_inverse[MAX_CONTACTS][MAX_CONTACTS]; /* of their couplings: reactions from relative accelerations */
-    int yielding[MAX_FLOORS]; /* of each storey: the direction of its drift (+1, -1) while it yields, 0 while elastic */
+    int yielding[MAX_UNKNOWNS]; /* of each storey: the direction of its drift (+1, -1) while it yields, 0 while elastic */
     bool collapsed; /* a storey has: the run ends */
 } Phases;
 
@@ -183,8 +224,8 @@ typedef struct {
 typedef struct {
     const Scene *scene;
     Gauss gauss;
-    int entries[MAX_FLOORS], column[MAX_FLOORS][MAX_FLOORS]; /* non-zero columns of K and C, row by row */
-    real k_over_m[MAX_FLOORS][MAX_FLOORS], c_over_m[MAX_FLOORS][MAX_FLOORS];
+    int entries[MAX_UNKNOWNS], column[MAX_UNKNOWNS][MAX_UNKNOWNS]; /* of the matrices below, C and all forms */
+    real k_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS], c_over_m[MAX_UNKNOWNS][MAX_UNKNOWNS];
     real segment_time, segment_ground, segment_slope; /* ground acceleration of the present piece */
     Phases phases;
     real u_scale, v_scale; /* largest values so far */
@@ -210,7 +251,7 @@ static inline Point *step_end(const Solver *solver, Step *step) { return &step->
 /* ---- correct.c ---- */
 
 /* Turns the residuals of the stages' accelerations into their Newton corrections; false where that fails. */
-bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_FLOORS]);
+bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_UNKNOWNS]);
 
 /* ---- event.c: where a contact changes its mode, a storey its phase ---- */
 
@@ -224,7 +265,7 @@ typedef struct {
     int sign;
 } Guard;
 
-enum { MAX_GUARDS = 2 * (MAX_CONTACTS + MAX_FLOORS) };
+enum { MAX_GUARDS = 2 * (MAX_CONTACTS + MAX_UNKNOWNS) };
 
 typedef struct {
     Guard guard;
@@ -271,6 +312,7 @@ void record_step(Solver *solver, Episodes *episodes, const Step *step, Step *scr
 
 typedef struct {
     real input, kinetic, strain, viscous, impact, hysteretic, gravity;
+    real soil; /* part of viscous */
 } Energy;
 
 /* What is written about a storey that can yield. */
@@ -280,9 +322,9 @@ typedef struct {
 } StoreyRow;
 
 typedef struct {
-    real time, u[MAX_FLOORS], v[MAX_FLOORS];
+    real time, u[MAX_UNKNOWNS], v[MAX_UNKNOWNS]; /* absolute displacements, relative to the ground, and velocities */
     Energy energy;
-    StoreyRow storey[MAX_FLOORS];
+    StoreyRow storey[MAX_UNKNOWNS];
 } Row;
 
 /* A storey begins to yield (direction +1, -1), is elastic again (0) or has collapsed (+2, -2). */
@@ -319,7 +361,7 @@ typedef struct {
     int events_now;             /* since the last step */
     Energy energy;
     real initial_energy;
-    real cumulative[MAX_FLOORS], peak[MAX_FLOORS]; /* of the storeys: sum of plastic steps, largest |drift| so far */
+    real cumulative[MAX_UNKNOWNS], peak[MAX_UNKNOWNS]; /* of the storeys: sum of plastic steps, largest |drift| so far */
 } Run;
 
 /* ---- mode.c: what happens at an event ---- */

@@ -12,10 +12,10 @@ void hold_together(Run *run)
     const Phases *phases = &run->solver.phases;
     real rate[MAX_CONTACTS], impulse[MAX_CONTACTS];
     for (int k = 0; k < phases->held; k++)
-        rate[k] = along(&run->scene->contact[phases->held_contact[k]], run->now.v);
+        rate[k] = along(&run->scene->contact[phases->held_contact[k]].form, run->now.v);
     held_forces(phases, rate, impulse);
     for (int k = 0; k < phases->held; k++)
-        push_apart(run->scene, &run->scene->contact[phases->held_contact[k]], impulse[k], run->now.v);
+        push(&run->scene->contact[phases->held_contact[k]].form, -impulse[k], run->now.v);
 }
 
 real returned_share(const Run *run, int c, real rate)
@@ -54,7 +54,7 @@ static void solve_set(const Run *run, Impact *impact, unsigned long set)
     for (int i = 0; i < n; i++) {
         p[i] = (1 + impact->e[acting[i]]) * impact->before[acting[i]];
         for (int j = 0; j < n; j++)
-            matrix[i][j] = coupling(run->scene, &of[impact->contact[acting[i]]], &of[impact->contact[acting[j]]]);
+            matrix[i][j] = coupling(&of[impact->contact[acting[i]]].form, &of[impact->contact[acting[j]]].form);
     }
     solve_linear(n, matrix, p);
     for (int i = 0; i < impact->count; i++)
@@ -70,7 +70,7 @@ static bool fits(const Run *run, const Impact *impact)
     for (int i = 0; i < impact->count; i++) {
         real w = (1 + impact->e[i]) * impact->before[i];
         for (int j = 0; j < impact->count; j++)
-            w -= coupling(run->scene, &of[impact->contact[i]], &of[impact->contact[j]]) * impact->impulse[j];
+            w -= coupling(&of[impact->contact[i]].form, &of[impact->contact[j]].form) * impact->impulse[j];
         if (impact->impulse[i] < 0 || w > 1e-30Q * run->solver.v_scale)
             return false;
     }
@@ -143,7 +143,7 @@ void exchange_momentum(Run *run, int first)
     else
         solve_impulses(run, &impact);
     for (int i = 0; i < impact.count; i++)
-        push_apart(run->scene, &run->scene->contact[impact.contact[i]], impact.impulse[i], run->now.v);
+        push(&run->scene->contact[impact.contact[i]].form, -impact.impulse[i], run->now.v);
     complete_point(&run->solver, &run->now);
     for (int i = 0; i < impact.count; i++) {
         int c = impact.contact[i];

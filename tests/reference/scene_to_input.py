@@ -13,7 +13,10 @@ from decimal import Decimal
 from facing import contacts, position
 
 # What is in t or with kN where a scene says so.
-IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots", "gravity_load", "dashpot", "slip_force"}
+IN_KN_T = {
+    "mass", "inertia", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots", "gravity_load", "dashpot",
+    "slip_force",
+}
 
 
 def in_si_units(value, is_scaled=False):
@@ -55,6 +58,16 @@ def gravity_lines(building):
     return lines
 
 
+def foundation_lines(building):
+    foundation = building.get("foundation", {})
+    lines = [f"height {numbers(building['height'])}"] if foundation else []
+    for way, weight in (("sway", "mass"), ("rocking", "inertia")):
+        if way in foundation:
+            spring = foundation[way]
+            lines.append(f"{way} {numbers([foundation[weight], spring['stiffness'], spring.get('dashpot', 0)])}")
+    return lines
+
+
 def building_lines(building):
     lines = [f"building {len(building['mass'])}", f"mass {numbers(building['mass'])}"]
     if "stiffness" in building:
@@ -66,6 +79,7 @@ def building_lines(building):
         ratios = ratios if isinstance(ratios, list) else [ratios] * len(building["mass"])
         lines += [f"yield_force {numbers(building['yield_force'])}", f"post_yield_ratio {numbers(ratios)}"]
     lines += gravity_lines(building)
+    lines += foundation_lines(building)
     lines += damping_lines(building["damping"])
     for key in ("displacement", "velocity"):
         if f"initial_{key}" in building:

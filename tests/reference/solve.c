@@ -65,7 +65,7 @@ static void start_scales(Run *run)
 {
     const Scene *scene = run->scene;
     real w = 0, pga = 0, u = 0;
-    for (int i = 0; i < scene->floors; i++) {
+    for (int i = 0; i < scene->unknowns; i++) {
         w = fmaxq(w, sqrtq(fabsq(run->solver.k_over_m[i][i])));
         u = fmaxq(u, fabsq(scene->u0[i]));
     }
@@ -85,10 +85,12 @@ static Energy energy_now(const Run *run)
 {
     const Scene *scene = run->scene;
     Energy energy = run->energy;
+    real speed[MAX_UNKNOWNS];
+    absolute(scene, run->now.v, speed);
     energy.kinetic = energy.strain = 0;
-    for (int i = 0; i < scene->floors; i++) {
-        energy.kinetic += scene->mass[i] * run->now.v[i] * run->now.v[i] / 2;
-        for (int j = 0; j < scene->floors; j++)
+    for (int i = 0; i < scene->unknowns; i++) {
+        energy.kinetic += scene->mass[i] * speed[i] * speed[i] / 2;
+        for (int j = 0; j < scene->unknowns; j++)
             energy.strain += run->now.u[i] * scene->K[i][j] * run->now.u[j] / 2;
     }
     energy.strain += recoverable_change(run);
@@ -107,7 +109,7 @@ static void start(Run *run)
     start_scales(run);
     for (int c = 0; c < scene->contacts; c++) {
         const Contact *contact = &scene->contact[c];
-        p->d[c] = along(contact, p->u) - contact->gap;
+        p->d[c] = along(&contact->form, p->u) - contact->gap;
         run->solution->episodes.current[c] = -1;
     }
     start_storeys(run);
@@ -122,8 +124,8 @@ static void write_row(Run *run)
 {
     Row *row = &run->solution->row[run->solution->rows++];
     row->time = run->now.t;
-    memcpy(row->u, run->now.u, sizeof row->u);
-    memcpy(row->v, run->now.v, sizeof row->v);
+    absolute(run->scene, run->now.u, row->u);
+    absolute(run->scene, run->now.v, row->v);
     Energy *e = &row->energy;
     *e = energy_now(run);
     for (int s = 0; s < run->scene->storeys; s++)

@@ -41,18 +41,45 @@ static real clock_rate(Clock clock, real H, real x)
 
 /* ---- equations of motion ---- */
 
+/* The mass matrix^-1 times a matrix of stiffness or damping. */
+static void divide_matrix(const Scene *scene, const real matrix[MAX_UNKNOWNS][MAX_UNKNOWNS],
+                          real out[MAX_UNKNOWNS][MAX_UNKNOWNS])
+{
+    for (int j = 0; j < scene->unknowns; j++) {
+        real column[MAX_UNKNOWNS];
+        for (int i = 0; i < scene->unknowns; i++)
+            column[i] = matrix[i][j];
+        divide_by_masses(scene, column);
+        for (int i = 0; i < scene->unknowns; i++)
+            out[i][j] = column[i];
+    }
+}
+
+/* What a force along a form that follows from the same form depends on. */
+static void mark_used(const Form *form, bool used[MAX_UNKNOWNS][MAX_UNKNOWNS])
+{
+    for (int p = 0; p < form->pushes; p++)
+        for (int w = 0; w < form->weights; w++)
+            used[form->pushed[p]][form->of[w]] = true;
+}
+
 void prepare_solver(Solver *solver, const Scene *scene, int stages)
 {
     memset(solver, 0, sizeof *solver);
     solver->scene = scene;
     prepare_gauss(&solver->gauss, stages);
-    for (int i = 0; i < scene->floors; i++)
-        for (int j = 0; j < scene->floors; j++)
-            if (scene->K[i][j] != 0 || scene->C[i][j] != 0) {
-                solver->k_over_m[i][j] = scene->K[i][j] / scene->mass[i];
-                solver->c_over_m[i][j] = scene->C[i][j] / scene->mass[i];
+    divide_matrix(scene, scene->K, solver->k_over_m);
+    divide_matrix(scene, scene->C, solver->c_over_m);
+    static bool used[MAX_UNKNOWNS][MAX_UNKNOWNS];
+    memset(used, 0, sizeof used);
+    for (int s = 0; s < scene->storeys; s++)
+        mark_used(&scene->storey[s].form, used);
+    for (int l = 0; l < scene->leans; l++)
+        mark_used(&scene->lean[l].form, used);
+    for (int i = 0; i < scene->unknowns; i++)
+        for (int j = 0; j < scene->unknowns; j++)
+            if (used[i][j] || scene->C[i][j] != 0 || solver->k_over_m[i][j] != 0 || solver->c_over_m[i][j] != 0)
                 solver->column[i][solver->entries[i]++] = j;
-            }
 }
 
 void set_mode(Solver *solver, int contact, Mode mode)
@@ -70,7 +97,7 @@ void set_mode(Solver *solver, int contact, Mode mode)
         for (int i = 0; i < n; i++) {
             column[i] = i == k;
             for (int j = 0; j < n; j++)
-                matrix[i][j] = coupling(solver->scene, &of[phases->held_contact[i]], &of[phases->held_contact[j]]);
+                matrix[i][j] = coupling(&of[phases->held_contact[i]].form, &of[phases->held_contact[j]].form);
         }
         solve_linear(n, matrix, column);
         for (int i = 0; i < n; i++)
@@ -87,10 +114,10 @@ void held_forces(const Phases *phases, const real *rate, real *force)
     }
 }
 
-/* -(K x + C y) / m. */
+/* -M^-1 (K x + C y). */
 static void restore(const Solver *solver, const real *x, const real *y, real *out)
 {
-    for (int i = 0; i < solver->scene->floors; i++) {
+    for (int i = 0; i < solver->scene->unknowns; i++) {
         real sum = 0;
         for (int e = 0; e < solver->entries[i]; e++) {
             int j = solver->column[i][e];
@@ -101,31 +128,31 @@ static void restore(const Solver *solver, const real *x, const real *y, real *ou
 }
 
 /* What a plastic drift takes from the force of an elastic storey. */
-static void relieve(const Scene *scene, const Storey *storey, real plastic, real *floors)
+static void relieve(const Storey *storey, real plastic, real *unknowns)
 {
-    drive_storey(scene, storey, (1 - storey->ratio) * storey->k * plastic, floors);
+    push(&storey->form, (1 - storey->ratio) * storey->k * plastic, unknowns);
 }
 
 real reaction_rate(const Solver *solver, int contact, const Point *p)
 {
     const Scene *scene = solver->scene;
     const Phases *phases = &solver->phases;
-    real jerk[MAX_FLOORS], rate[MAX_CONTACTS] = {0}, force[MAX_CONTACTS];
+    real jerk[MAX_UNKNOWNS], rate[MAX_CONTACTS] = {0}, force[MAX_CONTACTS];
     restore(solver, p->v, p->a, jerk);
     push_on(scene, p->v, jerk);
-    for (int i = 0; i < scene->floors; i++)
-        jerk[i] -= solver->segment_slope;
+    for (int i = 0; i < scene->unknowns; i++)
+        jerk[i] -= scene->carried[i] * solver->segment_slope;
     for (int s = 0; s < scene->storeys; s++)
         if (phases->yielding[s])
-            relieve(scene, &scene->storey[s], p->drift_rate[s], jerk);
+            relieve(&scene->storey[s], p->drift_rate[s], jerk);
     for (int c = 0; c < scene->contacts; c++)
         if (phases->mode[c] != STUCK)
-            push_apart(scene, &scene->contact[c],
-                       law_force_rate(&scene->contact[c].law, phases->mode[c], phases->V[c], p->d[c], p->rate[c],
-                                      p->rate_change[c]),
-                       jerk);
+            push(&scene->contact[c].form,
+                 -law_force_rate(&scene->contact[c].law, phases->mode[c], phases->V[c], p->d[c], p->rate[c],
+                                 p->rate_change[c]),
+                 jerk);
     for (int k = 0; k < phases->held; k++)
-        rate[k] = along(&scene->contact[phases->held_contact[k]], jerk);
+        rate[k] = along(&scene->contact[phases->held_contact[k]].form, jerk);
     held_forces(phases, rate, force);
     for (int k = 0; k < phases->held; k++)
         if (phases->held_contact[k] == contact)
@@ -141,31 +168,31 @@ void complete_point(const Solver *solver, Point *p)
     p->ground = solver->segment_ground + solver->segment_slope * (p->t - solver->segment_time);
     restore(solver, p->u, p->v, p->a);
     push_on(scene, p->u, p->a);
-    for (int i = 0; i < scene->floors; i++)
-        p->a[i] -= p->ground;
+    for (int i = 0; i < scene->unknowns; i++)
+        p->a[i] -= scene->carried[i] * p->ground;
     for (int s = 0; s < scene->storeys; s++) {
-        p->drift_rate[s] = drift_of(&scene->storey[s], p->v);
-        relieve(scene, &scene->storey[s], p->plastic[s], p->a);
+        p->drift_rate[s] = along(&scene->storey[s].form, p->v);
+        relieve(&scene->storey[s], p->plastic[s], p->a);
     }
     for (int c = 0; c < scene->contacts; c++) {
         const Contact *contact = &scene->contact[c];
-        p->rate[c] = along(contact, p->v);
+        p->rate[c] = along(&contact->form, p->v);
         p->force[c] = law_force(&contact->law, phases->mode[c], phases->V[c], p->d[c], p->rate[c]);
         if (p->force[c] != 0)
-            push_apart(scene, contact, p->force[c], p->a);
+            push(&contact->form, -p->force[c], p->a);
     }
     /* the reactions make the floors of contacts that are held together accelerate alike */
     for (int k = 0; k < phases->held; k++)
-        rate[k] = along(&scene->contact[phases->held_contact[k]], p->a);
+        rate[k] = along(&scene->contact[phases->held_contact[k]].form, p->a);
     held_forces(phases, rate, force);
     for (int k = 0; k < phases->held; k++) {
         p->force[phases->held_contact[k]] = force[k];
-        push_apart(scene, &scene->contact[phases->held_contact[k]], force[k], p->a);
+        push(&scene->contact[phases->held_contact[k]].form, -force[k], p->a);
     }
     for (int c = 0; c < scene->contacts; c++)
-        p->rate_change[c] = along(&scene->contact[c], p->a);
+        p->rate_change[c] = along(&scene->contact[c].form, p->a);
     for (int s = 0; s < scene->storeys; s++)
-        p->drift_change[s] = drift_of(&scene->storey[s], p->a);
+        p->drift_change[s] = along(&scene->storey[s].form, p->a);
 }
 
 /* ---- collocation ---- */
@@ -173,7 +200,7 @@ void complete_point(const Solver *solver, Point *p)
 /* p = start + sum of row[j] dt/dx[j] times the stages' accelerations (for v) or velocities (for u). */
 static void integrate_velocity(const Solver *solver, const Step *step, const real *weight, Point *p)
 {
-    for (int i = 0; i < solver->scene->floors; i++) {
+    for (int i = 0; i < solver->scene->unknowns; i++) {
         real change = 0;
         for (int j = 0; j < solver->gauss.stages; j++)
             change += weight[j] * step->point[j + 1].a[i];
@@ -185,8 +212,8 @@ static void integrate_displacement(const Solver *solver, const Step *step, const
 {
     const Scene *scene = solver->scene;
     const Point *start = &step->point[0];
-    real change[MAX_FLOORS];
-    for (int i = 0; i < scene->floors; i++) {
+    real change[MAX_UNKNOWNS];
+    for (int i = 0; i < scene->unknowns; i++) {
         change[i] = 0;
         for (int j = 0; j < solver->gauss.stages; j++)
             change[i] += weight[j] * step->point[j + 1].v[i];
@@ -194,9 +221,9 @@ static void integrate_displacement(const Solver *solver, const Step *step, const
     }
     /* from the changes, not from u: so d keeps its leading digits where it is small */
     for (int c = 0; c < scene->contacts; c++)
-        p->d[c] = solver->phases.mode[c] == STUCK ? 0 : start->d[c] + along(&scene->contact[c], change);
+        p->d[c] = solver->phases.mode[c] == STUCK ? 0 : start->d[c] + along(&scene->contact[c].form, change);
     for (int s = 0; s < scene->storeys; s++) {
-        real drift = drift_of(&scene->storey[s], change);
+        real drift = along(&scene->storey[s].form, change);
         p->z[s] = start->z[s] + (solver->phases.yielding[s] ? 0 : drift);
         p->plastic[s] = start->plastic[s] + (solver->phases.yielding[s] ? drift : 0);
     }
@@ -222,7 +249,7 @@ static void integrate_row(const Solver *solver, const Step *step, const real *ro
 static real iterate(const Solver *solver, Step *step)
 {
     int n = solver->gauss.stages;
-    static real residual[MAX_STAGES][MAX_FLOORS], assumed[MAX_STAGES][MAX_FLOORS];
+    static real residual[MAX_STAGES][MAX_UNKNOWNS], assumed[MAX_STAGES][MAX_UNKNOWNS];
     real weight[MAX_STAGES][MAX_STAGES], largest = 0;
     for (int j = 0; j < n; j++) {
         memcpy(assumed[j], step->point[j + 1].a, sizeof assumed[j]);
@@ -233,7 +260,7 @@ static real iterate(const Solver *solver, Step *step)
         Point *p = &step->point[j + 1];
         integrate_displacement(solver, step, weight[j], p);
         complete_point(solver, p);
-        for (int i = 0; i < solver->scene->floors; i++) {
+        for (int i = 0; i < solver->scene->unknowns; i++) {
             residual[j][i] = p->a[i] - assumed[j][i];
             largest = fmaxq(largest, fabsq(residual[j][i]) * step->dt_dx[j]);
         }
@@ -243,7 +270,7 @@ static real iterate(const Solver *solver, Step *step)
     if (!correct_stages(solver, step, residual))
         return -1;
     for (int j = 0; j < n; j++)
-        for (int i = 0; i < solver->scene->floors; i++)
+        for (int i = 0; i < solver->scene->unknowns; i++)
             step->point[j + 1].a[i] = assumed[j][i] + residual[j][i];
     return largest;
 }
@@ -274,7 +301,7 @@ static void prepare_stages(const Solver *solver, Step *step, Clock clock, real H
 static real legendre_tail(const Solver *solver, const Step *step)
 {
     real largest = 0;
-    for (int i = 0; i < solver->scene->floors; i++) {
+    for (int i = 0; i < solver->scene->unknowns; i++) {
         real sum = 0;
         for (int k = 0; k < 2; k++) {
             real coefficient = 0;

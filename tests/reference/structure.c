@@ -3,12 +3,12 @@
 
 typedef struct {
     int n;
-    real w[MAX_FLOORS];               /* rad/s, ascending */
-    real q[MAX_FLOORS][MAX_FLOORS];   /* orthonormal eigenvectors in columns */
+    real w[MAX_UNKNOWNS];               /* rad/s, ascending */
+    real q[MAX_UNKNOWNS][MAX_UNKNOWNS];   /* orthonormal eigenvectors in columns */
 } Modes;
 
 /* One Jacobi rotation that annihilates s[i][j]. */
-static void rotate(int n, real s[MAX_FLOORS][MAX_FLOORS], real q[MAX_FLOORS][MAX_FLOORS], int i, int j)
+static void rotate(int n, real s[MAX_UNKNOWNS][MAX_UNKNOWNS], real q[MAX_UNKNOWNS][MAX_UNKNOWNS], int i, int j)
 {
     real theta = (s[j][j] - s[i][i]) / (2 * s[i][j]);
     real t = (theta >= 0 ? 1 : -1) / (fabsq(theta) + sqrtq(theta * theta + 1));
@@ -47,7 +47,7 @@ static void sort_modes(Modes *modes)
 /* Eigenvalues of M^-1/2 K M^-1/2 by cyclic Jacobi rotations, K being that under gravity. */
 static void find_modes(const Scene *scene, int first, int n, Modes *modes)
 {
-    static real s[MAX_FLOORS][MAX_FLOORS];
+    static real s[MAX_UNKNOWNS][MAX_UNKNOWNS];
     modes->n = n;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {

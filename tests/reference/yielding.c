@@ -4,20 +4,6 @@
 
 #include <stdlib.h>
 
-/* ---- rows ---- */
-
-real drift_of(const Storey *storey, const real *floors)
-{
-    return floors[storey->above] - (storey->below < 0 ? 0 : floors[storey->below]);
-}
-
-void drive_storey(const Scene *scene, const Storey *storey, real force, real *floors)
-{
-    floors[storey->above] += force / scene->mass[storey->above];
-    if (storey->below >= 0)
-        floors[storey->below] -= force / scene->mass[storey->below];
-}
-
 static real drift(const Point *p, int s) { return p->z[s] + p->plastic[s]; }
 
 /* ---- phases ---- */
@@ -40,7 +26,7 @@ void start_storeys(Run *run)
     Point *p = &run->now;
     for (int s = 0; s < run->scene->storeys; s++) {
         const Storey *storey = &run->scene->storey[s];
-        real all = drift_of(storey, p->u);
+        real all = along(&storey->form, p->u);
         p->z[s] = fmaxq(-storey->limit, fminq(all, storey->limit));
         p->plastic[s] = all - p->z[s];
         run->peak[s] = fabsq(all);
