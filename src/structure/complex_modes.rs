@@ -24,7 +24,7 @@ use super::modes::{ModalDamping, Modes};
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 /// Largest condition number of the shapes: beyond it the modes are better left coupled.
-const MOST_CONDITION: f64 = 1e3;
+const MOST_CONDITION: f64 = 2e4;
 
 /// Largest number of modes of a body: the work grows with the cube.
 const MOST_MODES: usize = 256;
