@@ -5,8 +5,8 @@
 use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
-use super::foundation::Place;
 use super::link::Link;
+use super::place::Place;
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};

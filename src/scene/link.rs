@@ -1,6 +1,6 @@
 //! A device between two floors, or between a floor and the ground.
 
-use super::foundation::Place;
+use super::place::Place;
 use super::side::Side;
 
 /// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations. A scene's file has something

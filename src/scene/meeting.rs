@@ -2,8 +2,8 @@
 
 use super::contact_pair::{ContactPair, Face, Share};
 use super::data::{Building, Scene};
-use super::foundation::Place;
 use super::link::Link;
+use super::place::Place;
 use super::side::Side;
 use crate::figures::six_decimals;
 

@@ -62,8 +62,10 @@
 //! `lines` says on which lines its paths stand.
 
 mod check;
+mod check_foundation;
 mod checker;
 mod contact_pair;
+mod contact_row;
 mod data;
 mod document;
 mod facing;
@@ -77,6 +79,8 @@ mod link;
 mod matrix;
 mod meeting;
 mod p_delta;
+mod place;
+mod places;
 mod problem;
 mod read;
 mod read_contacts;
@@ -91,11 +95,13 @@ pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
 pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
-pub use foundation::{Foundation, FoundationKey, Place, Places, Soil};
+pub use foundation::{Foundation, FoundationKey, Soil};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
 pub use lines::lines;
 pub use link::{Link, Slip};
 pub use p_delta::NetStorey;
+pub use place::Place;
+pub use places::Places;
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
 pub use side::Side;

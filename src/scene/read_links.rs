@@ -1,8 +1,8 @@
 //! The keys of links: `[[link]]`, with its two ends, its spring and its dashpot.
 
 use super::document::{Item, KEY, Section};
-use super::foundation::Place;
 use super::link::{Link, Slip};
+use super::place::Place;
 use super::side::Side;
 use super::units::Units;
 

@@ -161,7 +161,7 @@ fn linked_modes(
         let (modes, floors) = (&alone[part.side as usize], &part.floors);
         let weighted =
             DMatrix::from_fn(floors.len(), floors.len(), |i, m| mass[floors.start + i] * modes.shape[(i, m)]);
-        let between = weighted.tr_mul(&soil::beyond_foundation(part, &shape));
+        let between = weighted.tr_mul(&soil::beyond_foundation((part.floors.start, &part.places), &shape));
         damping += between.tr_mul(&(modes.damping.matrix() * &between));
         for (place, soil) in soil::springs(buildings[part.side as usize]) {
             let Some(row) = row_of(part.side, place) else { continue };

@@ -322,7 +322,7 @@ mod tests {
     fn they_fly_as_coupled_modes_do() {
         for structure in structures() {
             let modes = &structure.body(Side::Left).modes;
-            let ModalDamping::Coupled(damping) = &modes.damping else { panic!("nothing couples") };
+            let ModalDamping::Coupled(damping) = &modes.damping else { unreachable!("nothing couples") };
             let of = Oscillators::of(modes).unwrap();
             let (n, h) = (modes.omega.len(), 0.01);
             let matrix = CoupledIncrement::new(&modes.omega, damping, h);

@@ -46,8 +46,8 @@ pub struct Structure {
     /// Largest w or c of all modes, 1/s: the highest rate in the structure.
     pub fastest: f64,
     coupling: Vec<Coupling>,
-    /// What moves in flights, where that is not the modes.
-    flight: Option<Box<FlightModes>>,
+    /// What moves in flights, where that is not the modes, and how it goes with these.
+    flight: Option<(FlightModes, Box<Structure>)>,
     /// The buildings floor by floor.
     pub floors: Floors,
     /// From modes to floors and back, for each body.
@@ -88,7 +88,9 @@ impl Structure {
         });
         structure.alone = alone;
         if flies_by_oscillators(scene) {
-            structure.flight = FlightModes::of(&structure).map(Box::new);
+            let flight = FlightModes::of(&structure.bodies);
+            structure.flight = flight
+                .map(|(flight, moving)| (flight, Box::new(Structure::of_bodies(moving, structure.floors.clone()))));
         }
         Ok(structure)
     }
@@ -111,7 +113,7 @@ impl Structure {
         self.links = links;
     }
 
-    pub(super) fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
+    fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
         let lanes = floors.mass().len();
         let to_floors = |body: &Body| {
             let shape = |i: usize, m: usize| body.modes.shape[(i, m)];
@@ -179,12 +181,12 @@ impl Structure {
 
     /// The oscillators that move in flights, where these are not the modes.
     pub fn oscillators(&self) -> Option<&FlightModes> {
-        self.flight.as_deref()
+        self.flight.as_ref().map(|(flight, _)| flight)
     }
 
     /// What moves in flights.
     pub fn in_flight(&self) -> &Structure {
-        self.oscillators().map_or(self, |flight| &flight.oscillators)
+        self.flight.as_ref().map_or(self, |(_, moving)| moving)
     }
 
     /// The body of a building.

@@ -2,16 +2,12 @@
 
 use super::bodies::Body;
 use super::complex_modes::Oscillators;
-use super::equations::Structure;
 use super::modes::{ModalDamping, Modes};
 use nalgebra::DMatrix;
 
-/// The oscillators of the bodies in which damping couples modes; the modes of the others are theirs.
+/// How the oscillators of the bodies in which damping couples modes go with these modes; in other bodies modes are what moves.
 #[derive(Clone, Debug)]
 pub struct FlightModes {
-    /// Their frequencies, damping and participation, as if they were modes; shapes are rows over both of their coordinates,
-    /// and stand elsewhere.
-    pub oscillators: Structure,
     /// The energy of the modes is at most so many times the sum of (x'^2 + w^2 x^2) / 2 over the oscillators.
     pub most_energy: f64,
     maps: Vec<Map>,
@@ -28,12 +24,14 @@ struct Map {
 }
 
 impl FlightModes {
-    /// Those of a structure; `None` where damping couples no modes, or couples them so that they have none.
-    pub(super) fn of(structure: &Structure) -> Option<FlightModes> {
-        let (mut bodies, mut maps, mut most) = (Vec::new(), Vec::new(), 1.0_f64);
-        for body in &structure.bodies {
+    /// Those of some bodies, with the bodies as what moves: frequencies, damping and participation as if oscillators were modes;
+    /// shapes are rows over both of their coordinates, and stand elsewhere. `None` where damping couples no modes, or couples them
+    /// so that they have none.
+    pub(super) fn of(bodies: &[Body]) -> Option<(FlightModes, Vec<Body>)> {
+        let (mut moving, mut maps, mut most) = (Vec::new(), Vec::new(), 1.0_f64);
+        for body in bodies {
             if !body.is_coupled() {
-                bodies.push(body.clone());
+                moving.push(body.clone());
                 continue;
             }
             let count = body.range.len();
@@ -42,11 +40,10 @@ impl FlightModes {
             most = most.max(most_energy);
             let damping = ModalDamping::Diagonal(damping);
             let modes = Modes { omega, shape: DMatrix::zeros(count, count), participation, damping };
-            bodies.push(Body { modes, ..body.clone() });
+            moving.push(Body { modes, ..body.clone() });
             maps.push(Map { offset: body.range.start, count, to_modes, from_modes });
         }
-        let oscillators = Structure::of_bodies(bodies, structure.floors.clone());
-        (!maps.is_empty()).then_some(FlightModes { oscillators, most_energy: most, maps })
+        (!maps.is_empty()).then_some((FlightModes { most_energy: most, maps }, moving))
     }
 
     /// The matrix that gives displacements and velocities of the modes of a body, of which this is the first.

@@ -10,7 +10,6 @@
 //! so that there is a factor R with K - K_G = R'R, one line for each square. Damping of the building acts on what its floors
 //! do beyond the motion of the foundation, by the modes that it has on a fixed base.
 
-use super::bodies::Part;
 use super::modes::{Modes, NotPositiveDefinite, solve};
 use crate::scene::{Building, Foundation, Place, Places, Soil};
 use nalgebra::{DMatrix, DVector};
@@ -61,12 +60,12 @@ pub(super) fn inertias(building: &Building, places: &Places) -> Vec<f64> {
     building.mass.iter().copied().chain(of_foundation.map(|place| building.inertia(place))).collect()
 }
 
-/// What the floors of a building do beyond the motion of its foundation, from motions of all displacements of its body.
-pub(super) fn beyond_foundation(part: &Part, motions: &DMatrix<f64>) -> DMatrix<f64> {
-    let first = part.floors.start;
-    DMatrix::from_fn(part.floors.len(), motions.ncols(), |floor, m| {
-        let weighted = |(place, weight)| Some(weight * motions[(first + part.places.number(place)?, m)]);
-        part.places.beyond_foundation(floor).filter_map(weighted).sum()
+/// What the floors of a building do beyond the motion of its foundation, from motions of all displacements of its body, of
+/// which its own begin with the `first`.
+pub(super) fn beyond_foundation((first, places): (usize, &Places), motions: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(places.floors, motions.ncols(), |floor, m| {
+        let weighted = |(place, weight)| Some(weight * motions[(first + places.number(place)?, m)]);
+        places.beyond_foundation(floor).filter_map(weighted).sum()
     })
 }
 

@@ -39,7 +39,7 @@ impl OscillatorRows {
     pub(crate) fn of(structure: &Structure, row: &[f64]) -> Option<OscillatorRows> {
         let flight = structure.oscillators()?;
         let value = flight.rows([row, &vec![0.0; row.len()]]);
-        let Structure { omega2, damping, quickness, .. } = &flight.oscillators;
+        let Structure { omega2, damping, quickness, .. } = structure.in_flight();
         let rate_of = |[a, b]: &[Vec<f64>; 2]| {
             let of = |m: usize| [-omega2[m] * b[m], a[m] - damping[m] * b[m]];
             [0, 1].map(|part| (0..row.len()).map(|m| of(m)[part]).collect::<Vec<f64>>())

@@ -1,0 +1,56 @@
+//! The row of a contact: by how much displacements of buildings close its gap.
+
+use super::contact_pair::{ContactPair, Face, Share};
+use super::data::Scene;
+use super::place::Place;
+use super::places::Places;
+use super::side::Side;
+
+impl Face {
+    /// What moves it. The weights of floors and foundation are positive and add up to 1 together with that of the ground;
+    /// columns that are bent to N(s) of their drift have turned by s as they lean with their foundation.
+    fn shares(self, scene: &Scene) -> impl Iterator<Item = Share> {
+        let places = self.side().map(|side| Places::of(scene.building(side)));
+        let shares = match self {
+            Face::Floor(_, floor) => [Some((floor, 1.0)), None],
+            Face::Columns { storey, position, shape, .. } => {
+                let upper = shape.share_of_upper_floor(position);
+                [Some((storey.saturating_sub(1), 1.0 - upper)), Some((storey, upper))]
+            }
+            Face::Wall => [None, None],
+        };
+        let tilt = match (self, &places) {
+            (Face::Columns { storey, position, shape, .. }, Some(places)) => {
+                let height = storey.checked_sub(1).and_then(|storey| places.tilt(storey));
+                height.map(|height| (Place::Rotation, (position - shape.share_of_upper_floor(position)) * height))
+            }
+            _ => None,
+        };
+        let place = |floor: usize| floor.checked_sub(1).map_or(Place::Foundation, Place::Floor);
+        let shares = shares.into_iter().flatten().map(move |(floor, weight)| (place(floor), weight));
+        // What does not move, such as the ground below columns, has no share.
+        shares.chain(tilt).filter_map(move |(place, weight)| {
+            places.as_ref()?.number(place)?;
+            Some(Share { side: self.side()?, place, weight })
+        })
+    }
+}
+
+impl ContactPair {
+    /// The row of the contact in its scene: its penetration is the sum of the weights times the displacements, less the gap.
+    /// A contact force pushes each floor with its weight of it, against the weight's sign.
+    pub fn row(&self, scene: &Scene) -> impl Iterator<Item = Share> {
+        let right = self.right.shares(scene).map(|share| Share { weight: -share.weight, ..share });
+        self.left.shares(scene).chain(right)
+    }
+
+    /// Whether the ground takes part: as a wall, or as the lower end of the columns of a first storey.
+    pub fn has_ground(&self, scene: &Scene) -> bool {
+        let sways = |side: Side| scene.building(side).inertia(Place::Foundation).is_finite();
+        let is_of_ground = |face: &Face| match face {
+            Face::Columns { side, storey: 1, .. } => !sways(*side),
+            face => matches!(face, Face::Wall),
+        };
+        is_of_ground(&self.left) || is_of_ground(&self.right)
+    }
+}
