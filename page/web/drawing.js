@@ -1,5 +1,5 @@
 // One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, links, and the impacts that have
-// just been.
+// just been. The report of a run has it as well, at rest (simulate/src/report.rs).
 
 import { Devices } from "./devices.js";
 import { bend } from "./geometry.js";

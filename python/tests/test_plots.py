@@ -199,15 +199,34 @@ def test_links_are_drawn_between_the_floors_and_move_with_them():
     """The gap is 4 mm at rest. An end on the ground stays where it is; a link below another one hangs lower."""
     scene = told({**linked(), "link": [*linked()["link"], {"left_floor": 2, "right_floor": 1, "dashpot": 1.0}]})
     elevation = Elevation(Figure().subplots(), scene, 100.0)
-    across = [device.line.get_xdata() for device in elevation.devices]
+    across = [device.get_xdata() for device in elevation.devices]
     elevation.place({"left": np.array([3.0, 7.0]), "right": np.array([-2.0, -5.0])})
     for device, before, (left, right) in zip(elevation.devices, across, [(7.0, -5.0), (3.0, 0.0), (7.0, -2.0)]):
-        after = device.line.get_xdata()
+        after = device.get_xdata()
         assert np.nanmin(after) - np.nanmin(before) == pytest.approx(left)
         assert np.nanmax(after) - np.nanmax(before) == pytest.approx(right)
     assert np.nanmin(across[0]) < 0.0 and np.nanmax(across[0]) > 4.0
-    first, _, third = (device.line.get_ydata() for device in elevation.devices)
+    first, _, third = (device.get_ydata() for device in elevation.devices)
     assert np.nanmax(first) == 1.0 and np.nanmin(third) == pytest.approx(0.5 - 0.5 * (BELOW + APART))
+
+
+def test_what_is_skew_is_drawn_upright_to_its_line():
+    """A spring from an upper floor down to a lower one, in pixels: its bends are evenly spaced along it and equally far aside."""
+    scene = told({**linked(), "link": [{"left_floor": 2, "right_floor": 1, "stiffness": 1.0}]})
+    figure = Figure(figsize=(3.0, 6.0), dpi=100)
+    axes = figure.subplots()
+    (spring,) = Elevation(axes, scene, 100.0).devices
+    axes.set(xlim=(-150.0, 150.0), ylim=(0.0, 1.1))
+    figure.draw_without_rendering()
+    at = axes.transData.transform(spring.get_xydata())
+    first = next(i for i in range(6, len(at)) if not np.isnan(at[i]).any())
+    begin, *_, end = points = at[first : first + 12]
+    along = (end - begin) / np.hypot(*(end - begin))
+    assert abs(along[1]) > 0.8
+    bends = points[2:-2] - begin
+    assert np.diff(bends @ along) == pytest.approx(np.full(7, np.diff(bends @ along).mean()), rel=1e-9)
+    aside = bends @ [-along[1], along[0]]
+    assert aside == pytest.approx([aside[0], -aside[0]] * 4, rel=1e-9) and abs(aside[0]) > 3.0
 
 
 @pytest.mark.parametrize("length", [5.0, 10.0, 20.0])

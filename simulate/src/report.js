@@ -318,6 +318,26 @@ function contactTable() {
   tableOf(element("contact-table"), headings, rows);
 }
 
+// The buildings at rest, as the page draws them: its colours in the light. Gaps are as wide as the floors move, or wider.
+function drawBuildings() {
+  const canvas = element("buildings");
+  const [width, height, dense] = [canvas.clientWidth, canvas.clientHeight, devicePixelRatio];
+  [canvas.width, canvas.height] = [width * dense, height * dense];
+  const context = canvas.getContext("2d");
+  context.scale(dense, dense);
+  const geometry = new Geometry({ layout: run });
+  const moves = run.columns.filter((column) => column.quantity === "displacement").map((column) => column.largest);
+  const colours = { ink: "#111", quiet: "#555", line: "#ddd", card: "#fff", "right-text": COLOURS.right[0] };
+  [colours.left, colours.right] = [COLOURS.left[0], COLOURS.right[0]];
+  const place = layOut(geometry, { x: 0, y: 0, width, height }, Math.max(0, ...moves), 0);
+  new Drawing(context, geometry, place, colours).draw({
+    moved: geometry.atRest(),
+    slipping: [],
+    flashes: [],
+    numbered: true,
+  });
+}
+
 // The largest of each storey and floor, the top first, and of the base; as far as the scene asks for them. Where it has
 // heights each building has the levels of its floors beside them.
 function peakTable() {
@@ -404,6 +424,7 @@ element("description").textContent = run.description;
 element("happened").textContent = happened();
 element("scene-text").textContent = run.scene;
 listVariables();
+drawBuildings();
 contactTable();
 peakTable();
 impactTable();
@@ -416,5 +437,6 @@ element("earlier").addEventListener("click", () => move(-0.5));
 element("later").addEventListener("click", () => move(0.5));
 element("more").addEventListener("click", () => { allRows = true; impactTable(); });
 addEventListener("resize", () => {
+  drawBuildings();
   for (const { plot } of charts.values()) plot.setSize({ width: element("charts").clientWidth, height: height() });
 });

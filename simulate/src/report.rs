@@ -37,6 +37,14 @@ const PARTS: [(&str, &str); 6] = [
     ("/*report_loops.js*/", include_str!("report_loops.js")),
 ];
 const DATA: &str = "/*data*/";
+/// The modules with which the browser page draws the buildings, each after those that it imports; and their mark.
+const DRAWING: [&str; 4] = [
+    include_str!("../../page/web/motion.js"),
+    include_str!("../../page/web/geometry.js"),
+    include_str!("../../page/web/devices.js"),
+    include_str!("../../page/web/drawing.js"),
+];
+const DRAWN: &str = "/*drawing*/";
 
 /// The data of the page, under the names that report.js reads.
 #[derive(Serialize)]
@@ -98,7 +106,13 @@ pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Res
     };
     let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
     let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
-    Ok(page.replacen(DATA, &data, 1))
+    Ok(page.replacen(DRAWN, &script(&DRAWING), 1).replacen(DATA, &data, 1))
+}
+
+/// Modules as one script: without their imports and exports.
+fn script(modules: &[&str]) -> String {
+    let lines = modules.iter().flat_map(|module| module.lines()).filter(|line| !line.starts_with("import "));
+    lines.map(|line| line.strip_prefix("export ").unwrap_or(line)).collect::<Vec<_>>().join("\n")
 }
 
 /// The times of all rows, and of each output what is kept of it.

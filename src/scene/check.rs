@@ -235,13 +235,10 @@ impl Checker {
         if let Some(slip) = link.slip {
             self.number(format_args!("{path}.slip_force"), slip.force, rule::SLIP_FORCE);
             self.number(format_args!("{path}.post_yield_ratio"), slip.ratio, rule::POST_YIELD_RATIO);
-        }
-        let needs_spring = match link.slip {
-            Some(_) => Some("a stiffness > 0, that of the spring that slips"),
-            None => (link.dashpot == 0.0).then_some("a stiffness > 0, or a dashpot > 0: nothing would be there"),
-        };
-        if let Some(expected) = needs_spring.filter(|_| link.stiffness == 0.0) {
-            self.refuse(format_args!("{path}.stiffness"), problem::number(link.stiffness), expected);
+            if link.stiffness == 0.0 {
+                let expected = "a stiffness > 0, that of the spring that slips";
+                self.refuse(format_args!("{path}.stiffness"), problem::number(link.stiffness), expected);
+            }
         }
     }
 

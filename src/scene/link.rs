@@ -3,7 +3,8 @@
 use super::foundation::Place;
 use super::side::Side;
 
-/// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations.
+/// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations. A scene's file has
+/// something in each; set to 0 later, as by a parameter of the FMU, there is no device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Where it is held on the left building; `None`: on the ground.
@@ -38,5 +39,10 @@ impl Link {
     /// Whether it is between the buildings.
     pub fn joins_buildings(&self) -> bool {
         self.left.is_some() && self.right.is_some()
+    }
+
+    /// Whether there is no device: neither a spring nor a dashpot.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.slip.is_none() && self.stiffness == 0.0 && self.dashpot == 0.0
     }
 }

@@ -46,14 +46,18 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
         (_, ratio) => ratio.map_or(0.0, |item| item.number()),
     };
     section.close(KEY);
-    let quantity = |item: Option<Item<'_>>| item.map(|item| item.quantity(units));
-    Link {
+    let quantity = |item: &Option<Item<'_>>| item.as_ref().map(|item| item.quantity(units));
+    let link = Link {
         left,
         right,
-        stiffness: quantity(stiffness).unwrap_or_default(),
-        dashpot: quantity(dashpot).unwrap_or_default(),
-        slip: quantity(force).map(|force| Slip { force, ratio }),
+        stiffness: quantity(&stiffness).unwrap_or_default(),
+        dashpot: quantity(&dashpot).unwrap_or_default(),
+        slip: quantity(&force).map(|force| Slip { force, ratio }),
+    };
+    if let Some(item) = stiffness.or(dashpot).filter(|_| link.is_nothing()) {
+        item.refuse("a stiffness > 0, or a dashpot > 0: nothing would be there");
     }
+    link
 }
 
 /// The ends on the left and on the right; `None` is the ground, as a wall opposite of a floor.

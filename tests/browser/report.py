@@ -206,6 +206,8 @@ def has_levels(page, impacts):
     """Buildings with heights: beside each floor its level, and what each slab meets."""
     headings, rows = table(page, "peak")
     assert [row[0] for row in rows] == [*"654321"]
+    pixels = drawn(page)
+    assert min(pixels["left"], pixels["right"]) > 2000 and pixels["ink"] < 400, pixels
     # Nothing of what is not there.
     for section in ("yielding", "links"):
         assert not page.locator(f"#{section}").is_visible() and not page.locator(f"nav a[href='#{section}']").is_visible()
@@ -222,6 +224,8 @@ def stands_alone(page, impacts):
     headings, rows = table(page, "peak")
     assert len(rows) == 5 and rows[-1][headings.index("left level")] == "0 m"
     assert not any("right" in heading for heading in headings)
+    pixels = drawn(page)
+    assert pixels["left"] > 2000 and pixels["right"] == 0, pixels
     assert page.locator(".chart").count() == 3
     texts = page.locator("body").inner_text()
     assert not re.search(r"NaN|undefined|null|Infinity", texts)
@@ -252,6 +256,19 @@ def yields(page, impacts):
     page.screenshot(path=FOLDER / "yielding.png", full_page=True)
 
 
+def drawn(page):
+    """How many pixels of the picture of the buildings have the colour of the left one, of the right one and of links."""
+    return page.evaluate("""() => {
+        const canvas = document.getElementById("buildings");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const colours = { left: [0, 114, 178], right: [213, 94, 0], ink: [17, 17, 17] };
+        const is = (at, colour) => data[at + 3] === 255 && colour.every((part, i) => Math.abs(data[at + i] - part) < 8);
+        const starts = Array.from({ length: data.length / 4 }, (_, pixel) => 4 * pixel);
+        const count = (colour) => starts.filter((at) => is(at, colour)).length;
+        return Object.fromEntries(Object.entries(colours).map(([name, colour]) => [name, count(colour)]));
+    }""")
+
+
 def is_linked(page, impacts):
     """Links: a row, a loop and curves each, and what friction without hardening can only be: its force stays at that at which
     it slips, and it dissipates this force times the sum of all slips."""
@@ -265,6 +282,7 @@ def is_linked(page, impacts):
     travel, dissipated = number(rows[0], "slip travel [mm]"), number(rows[0], "dissipated [kJ]")
     assert travel > 100.0 and abs(dissipated / (60.0 * travel * 1e-3) - 1.0) < 1e-3, (travel, dissipated)
     assert rows[2][headings.index("slip travel [mm]")] == ""
+    assert drawn(page)["ink"] > 400, drawn(page)
     figures = page.locator("#link-loops figure")
     assert figures.count() == 3 and page.locator("#loops figure").count() == 7
     at_the_top = []

@@ -108,7 +108,8 @@ fn same_links([one, other]: &[Run; 2], order: [usize; 4]) {
 
 #[test]
 fn the_order_of_links() {
-    let order = [2, 0, 3, 1];
+    // Those that slip change places.
+    let order = [3, 0, 1, 2];
     let mut shuffled = links();
     order.iter().zip(links()).for_each(|(&place, link)| shuffled[place] = link);
     for law in [SOFT, RIGID] {

@@ -4,7 +4,7 @@
 use crate::common::{Run, record};
 use crate::devices::{Difference, Pair, between, linked, motion, shaken, to_wall};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use pounding::engine::{LinkOutput, Output, Side};
+use pounding::engine::{LinkOutput, Output, PeakOf, Side};
 use pounding::record::Record;
 use pounding::scene::{Building, Damping, Link, Scene, Stiffness};
 use proptest::prelude::*;
@@ -240,23 +240,42 @@ fn a_stiff_link_ties_two_masses_into_one() {
     assert!(worst < 1e-9 * largest, "off by {:.1e}", worst / largest);
 }
 
-/// Springs and dashpots that are nothing: joint modes that move as those of each building, with contacts between them.
+/// Springs and dashpots that are nothing, or 0, as parameters may make them: joint modes that move as those of each building,
+/// with contacts between them and storeys that yield.
 #[test]
 fn a_link_of_no_strength_is_none() {
     let text = "[left]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = { ratio = 0.03 }\n\
-                [right]\nmass = [3e4, 2e4, 2e4]\nstiffness = [5e7, 3e7, 4e7]\ndamping = { ratio = 0.05 }\n\
-                [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.006\nlaw = \"kelvin_voigt\"\nstiffness = 2e8\n\
-                restitution = 0.65\n";
-    for weak in [between(2, 3, 1e-300, 0.0), between(1, 2, 0.0, 1e-300), between(1, 1, 1e-300, 1e-300)] {
-        let mut joined = shaken(linked(text, &[weak]), &shaking());
-        let mut difference = Difference::default();
+                [right]\nmass = [3e4, 2e4, 2e4]\nstiffness = [5e7, 3e7, 4e7]\ndamping = { ratio = 0.05 }\n";
+    let yields = "yield_force = [1.5e5, 1e5]\npost_yield_ratio = 0.1\n[right]";
+    let contact = "[[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.006\nlaw = \"kelvin_voigt\"\nstiffness = 2e8\n\
+                   restitution = 0.65\n";
+    let twins = "[left]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = { ratio = 0.03 }\n\
+                 [right]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = { ratio = 0.03 }\n\
+                 initial_velocity = [-0.2, -0.5]\n";
+    let undamped = &twins.replace("ratio = 0.03", "ratio = 0");
+    for text in [text, &text.replace("[right]", yields), twins, undamped] {
+        let text = &format!("{text}{contact}");
         let mut free = shaken(linked(text, &[]), &shaking());
-        for k in 1..=100 {
-            let time = 0.05 * f64::from(k);
-            difference.add(&motion(joined.to(time)), &motion(free.to(time)));
+        let expected: Vec<_> = (1..=100).map(|k| motion(free.to(0.05 * f64::from(k)))).collect();
+        assert!(free.point.impacts > 2);
+        for weak in [
+            between(2, 2, 1e-300, 0.0),
+            between(1, 2, 0.0, 1e-300),
+            between(1, 1, 1e-300, 1e-300),
+            between(2, 1, 0.0, 0.0),
+            to_wall(Side::Right, 2, 0.0, 0.0),
+        ] {
+            let mut joined = shaken(linked(text, std::slice::from_ref(&weak)), &shaking());
+            let mut difference = Difference::default();
+            for (k, free) in (1..).zip(&expected) {
+                difference.add(&motion(joined.to(0.05 * f64::from(k))), free);
+            }
+            assert!(difference.worst() < 1e-13, "{weak:?}: off by {:.1e}", difference.worst());
+            assert_eq!(free.point.impacts, joined.point.impacts, "{weak:?}");
+            assert!(joined.energy().residual.abs() < 1e-12, "{weak:?}: {:e}", joined.energy().residual);
+            let force = joined.peak(PeakOf::LinkForce(0));
+            assert!(force.abs() < 1e-299, "{weak:?}: {force:e} N");
         }
-        assert!(free.point.impacts > 3 && free.point.impacts == joined.point.impacts);
-        assert!(difference.worst() < 1e-13, "off by {:.1e}", difference.worst());
     }
 }
 

@@ -12,6 +12,7 @@ mod extremes;
 mod instants;
 mod invariants;
 mod joined;
+mod leaning;
 #[path = "../problems/random_frames.rs"]
 mod random_frames;
 mod slips;

@@ -82,9 +82,38 @@ fn sound_links() {
         (BRACE, &[("30e6", "30e9")]),
         (BRACE, &[("60e3", "600e3")]),
         (BRACE, &[("60e3", "6e3")]),
+        // A thousandth of the weight of the lighter floor, less of the other.
+        (BRACE, &[("60e3", "1.3e3")]),
     ] {
         assert_eq!(found(&linked(link, changes), None), [], "{changes:?}");
     }
+}
+
+/// A force beyond the reach of this ground motion, in a motion that has another start; one that a weak record does not reach,
+/// which stands for the ground motion that it will be scaled to.
+#[test]
+fn slip_forces_that_another_motion_reaches() {
+    let moving = ("stiffness = [141e6", "initial_velocity = [0.1, 0.2, 0.3]\nstiffness = [141e6");
+    assert_eq!(found(&edited(&linked(BRACE, &[("60e3", "29e6")]), &[moving]), None), []);
+    let weak = [("pga = 3.43", "pga = 0.6")];
+    assert_eq!(found(&edited(&linked(BRACE, &[("30e6", "300e6"), ("60e3", "8e6")]), &weak), None), []);
+    tell(
+        &edited(&linked(BRACE, &[("30e6", "300e6"), ("60e3", "10e6")]), &weak),
+        "link[1].slip_force",
+        "2.23 times the weight of the lighter building",
+    );
+}
+
+/// Masses in t, or a ground motion in g, make the link beside them look odd.
+#[test]
+fn what_is_odd_beside_a_link_is_told_alone() {
+    let in_t = [("mass = [198e3, 198e3, 198e3, 198e3, 154e3]", "mass = [198, 198, 198, 198, 154]")];
+    for force in ["60e3", "200e3"] {
+        let told = found(&edited(&linked(BRACE, &[("60e3", force)]), &in_t), None);
+        assert!(!told.is_empty() && told.iter().all(|warning| warning.path.starts_with("left.")), "{told:?}");
+    }
+    let in_g = edited(&linked(BRACE, &[("60e3", "60e6")]), &[("pga = 3.43", "pga = 0.35")]);
+    assert_eq!(paths(&found(&in_g, None)), ["ground.pga"]);
 }
 
 #[test]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from .layout import Link, slabs_of
 from .style import BLACK
@@ -26,29 +27,47 @@ Strokes = list[list[tuple[float, float]]]  # along and across
 STRAIGHT: Strokes = [[(0.0, 0.0), (1.0, 0.0)]]  # of ends that have passed each other
 
 
-class Device:
+class Device(Line2D):
     """A link in a drawing: `ends` in mm and levels, at rest; `hung` says how many parts hang there already."""
 
     def __init__(self, axes: Axes, link: Link, ends: list[NDArray[Any]], storey: float, hung: int) -> None:
+        super().__init__([], [], color=BLACK, linewidth=1.2, zorder=4, solid_joinstyle="miter")
         self.link, self.ends, self.storey, self.hung = link, ends, storey, hung
         self.rest = float(ends[1][0] - ends[0][0])
-        (self.line,) = axes.plot([], [], color=BLACK, linewidth=1.2, zorder=4, solid_joinstyle="miter")
+        axes.add_line(self)
         self.place((0.0, 0.0))
 
     def place(self, moved: tuple[float, float]) -> None:
         """Moves its ends across, mm."""
-        left, right = (end + [shift, 0.0] for end, shift in zip(self.ends, moved))
+        self.moved = moved
+        self.shape()
+
+    def draw(self, renderer: Any) -> None:
+        """Once the axes have their limits and their size: what is across depends on both."""
+        self.shape()
+        super().draw(renderer)
+
+    def shape(self) -> None:
+        left, right = (end + [shift, 0.0] for end, shift in zip(self.ends, self.moved))
         pieces = [np.array([end, end - [0.0, self.depth(len(self.link.parts) - 1)]]) for end in (left, right)]
-        length = float(right[0] - left[0])
+        length, across = float(right[0] - left[0]), self.across(right - left)
         # What keeps its length, cups and blocks, becomes shorter only where there is no room for it.
         fixed = min(self.rest, length / SHORTEST)
         for row, part in enumerate(self.link.parts):
             for stroke in DRAWN[part](length, fixed) if length > 0.0 else STRAIGHT:
-                along, across = np.array(stroke).T
-                share = (along / (length if length > 0.0 else 1.0))[:, None]
-                up = np.column_stack([0 * across, self.storey * HALF * across - self.depth(row)])
-                pieces.append(left + share * (right - left) + up)
-        self.line.set_data(*np.concatenate(list(broken(pieces))).T)
+                along, aside = np.array(stroke).T[:, :, None]
+                share = along / (length if length > 0.0 else 1.0)
+                pieces.append(left + share * (right - left) + aside * across - [0.0, self.depth(row)])
+        self.set_data(*np.concatenate(list(broken(pieces))).T)
+
+    def across(self, along: NDArray[Any]) -> NDArray[Any]:
+        """Half the height of a part, in mm and levels: in the picture at a right angle to a line."""
+        assert self.axes is not None
+        # Pixels of a mm and of a level.
+        scale = np.diag(self.axes.transData.transform([[1.0, 0.0], [0.0, 1.0]]) - self.axes.transData.transform((0.0, 0.0)))
+        x, y = along * scale
+        half: NDArray[Any] = self.storey * HALF * scale[1] * np.array([-y, x]) / np.hypot(x, y) / scale
+        return half
 
     def depth(self, row: int) -> float:
         """Of a part below the level of its slab."""

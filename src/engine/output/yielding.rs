@@ -68,7 +68,10 @@ impl Model {
             YieldingOf::PlasticDrift => flow.abs(),
             YieldingOf::ResidualDrift => {
                 let own = drift.map(|rate| flow.abs() * rate);
-                return [0, 1].map(|order| storey.residual_rate(now, own[order], self.flows(point, motions[order])));
+                let rate = |order: usize| {
+                    storey.residual_rate((now, &point.storeys), own[order], self.flows(point, motions[order]))
+                };
+                return [0, 1].map(rate);
             }
             YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
             YieldingOf::CumulativePlasticDrift => flow,

@@ -97,3 +97,39 @@ fn only_its_own_elastic_part_follows_a_plastic_drift() {
         }
     }
 }
+
+/// What gravity pushes on beyond its limit does not come back from a drift that what yields beside it moves: its rate is the
+/// change by each plastic drift.
+#[test]
+fn the_drift_from_which_a_storey_falls_moves_with_what_holds_it() {
+    let text = "name = \"Leaning\"\n\
+                left = { mass = [3e4], stiffness = [2e7], damping = { ratio = 0.02 }, yield_force = [1e5], height = [4.0], \
+                         post_yield_ratio = [0.0], p_delta = true, gravity_load = [16e6] }\n\
+                right = { mass = [4e4], stiffness = [1e7], damping = { ratio = 0.02 } }\n";
+    let mut scene = Scene::from_toml(text).unwrap();
+    let slip = Some(Slip { force: 6e4, ratio: 0.0 });
+    scene.links.push(Link { left: Some(0), right: Some(0), stiffness: 2e6, dashpot: 0.0, slip });
+    let system = System::of(&scene, None).unwrap();
+    let told = |plastic: [f64; 2]| {
+        let storeys = plastic.map(|plastic| Storey { plastic, ..Storey::default() });
+        let rates = [0.3, -0.7];
+        let rate = system.storeys[0].residual_rate((&storeys[0], &storeys), rates[0], rates.into_iter());
+        (system.storeys[0].residual_drift(&storeys[0], &storeys), rate)
+    };
+    // The spring beside the left storey moves by p of itself, in series with 1e7 N/m.
+    let held = 2e6 * 1e7 / (2e6 + 1e7);
+    for (plastic, falls) in [(0.05, true), (-0.05, true), (0.01, false)] {
+        for slip in [0.0, 0.004, -0.003] {
+            let (found, rate) = told([plastic, slip]);
+            // Left storey at its yield line, or elastic: force of the columns, gravity, the spring that has slipped.
+            let (expected, by_slip) = match falls {
+                true => ((1e5_f64.copysign(plastic) - held * slip) / (4e6 - held), -held / (4e6 - held)),
+                false => ((2e7 * plastic + held * slip) / (1.6e7 + held), held / (1.6e7 + held)),
+            };
+            assert!((found - expected).abs() < 1e-15, "{plastic}, {slip}: {found} not {expected} m");
+            let by_plastic = if falls { 0.0 } else { 2e7 / (1.6e7 + held) };
+            let expected = 0.3 * by_plastic - 0.7 * by_slip;
+            assert!((rate - expected).abs() < 1e-14, "{plastic}, {slip}: {rate} not {expected} m/s");
+        }
+    }
+}

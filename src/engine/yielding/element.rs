@@ -334,21 +334,31 @@ impl Element {
     /// The drift at which the storey would come to rest, m: beyond a plastic drift that gravity does not let it come back
     /// from, the critical one.
     pub(crate) fn residual_drift(&self, storey: &Storey, all: &[Storey]) -> f64 {
-        match self.critical.filter(|_| self.cannot_rest(storey)) {
-            Some(critical) => critical.copysign(storey.plastic),
+        let centre = self.centre(storey, all);
+        match self.critical.filter(|_| self.cannot_rest(centre)) {
+            Some(critical) => self.lift.critical(critical, (storey.plastic, centre), self.limit),
             None => self.lift.at_rest(storey.plastic, all.iter().map(|other| other.plastic)),
         }
     }
 
     /// Its rate, from the rates of the plastic drifts: its own, and those of all elements.
-    pub(crate) fn residual_rate(&self, storey: &Storey, own: f64, all: impl Iterator<Item = f64>) -> f64 {
-        if self.cannot_rest(storey) { 0.0 } else { self.lift.at_rest(own, all) }
+    pub(crate) fn residual_rate(
+        &self,
+        (storey, all): (&Storey, &[Storey]),
+        own: f64,
+        rates: impl Iterator<Item = f64>,
+    ) -> f64 {
+        let rate = self.lift.at_rest(own, rates);
+        match self.critical.is_some() && self.cannot_rest(self.centre(storey, all)) {
+            true => self.lift.critical_rate((own, own - rate)),
+            false => rate,
+        }
     }
 
-    /// Whether gravity pushes the storey on wherever it might rest; where links hold its building, whether it would do so
-    /// without them.
-    fn cannot_rest(&self, storey: &Storey) -> bool {
-        self.ratio < 0.0 && self.ratio * storey.plastic.abs() < -self.limit
+    /// Whether gravity pushes the storey on wherever it might rest, from the middle of its elastic range: the position of rest
+    /// is beyond that range, and what holds the storey, columns and links and other buildings, resists less and less.
+    fn cannot_rest(&self, centre: f64) -> bool {
+        self.lift.ratio(self.ratio) < 0.0 && centre.abs() > self.limit
     }
 
     /// The largest drift so far, m, from the largest one that has been watched: once the storey has yielded its drift has been

@@ -31,7 +31,9 @@ pub(super) enum Lift {
         modes: Vec<f64>,
         /// Displacements of all floors per unit of plastic drift.
         floors: Vec<f64>,
-        /// The drift of the element itself at rest per unit of the plastic drift of each element.
+        /// The drift of the element itself at rest per unit of its own plastic drift.
+        own: f64,
+        /// The same per unit of that of each element.
         by: Vec<f64>,
     },
 }
@@ -53,7 +55,7 @@ impl Lift {
         let modes: Vec<f64> = row.iter().zip(&structure.omega2).map(of_mode).collect();
         let mut floors = vec![0.0; structure.lanes];
         structure.to_floors(&modes, &mut floors);
-        Lift::All { modes, floors, by: Vec::new() }
+        Lift::All { own: dot(row, &modes), modes, floors, by: Vec::new() }
     }
 
     /// Works out how far the plastic drifts of all elements move the drift of this one, which has that row over the modes.
@@ -103,6 +105,33 @@ impl Lift {
         match self {
             Lift::Above { kept, .. } => kept * own,
             Lift::All { by, .. } => by.iter().zip(all).map(|(by, of)| by * of).sum(),
+        }
+    }
+
+    /// Stiffness against the drift of the element while it yields over that before, all other elements elastic: below 0 where
+    /// gravity pushes it on whatever holds it. `alone` is its post-yield ratio.
+    pub(super) fn ratio(&self, alone: f64) -> f64 {
+        match self {
+            Lift::Above { .. } => alone,
+            Lift::All { own, .. } => 1.0 - own,
+        }
+    }
+
+    /// The drift, m, from which an element that has a ratio below 0 does not come back. Of one by itself `alone`, in the sense
+    /// of its plastic drift; in a body with links where it would rest just at the limit of its elastic range, on the side
+    /// away from the `centre` of the one that it has now.
+    pub(super) fn critical(&self, alone: f64, (plastic, centre): (f64, f64), limit: f64) -> f64 {
+        match self {
+            Lift::Above { .. } => alone.copysign(plastic),
+            Lift::All { own, .. } => plastic + (centre - own * limit.copysign(centre)) / (own - 1.0),
+        }
+    }
+
+    /// Its rate, from those of the plastic drift and of the centre.
+    pub(super) fn critical_rate(&self, (plastic, centre): (f64, f64)) -> f64 {
+        match self {
+            Lift::Above { .. } => 0.0,
+            Lift::All { own, .. } => plastic + centre / (own - 1.0),
         }
     }
 

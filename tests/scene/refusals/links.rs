@@ -71,8 +71,13 @@ fn springs_dashpots_and_slips() {
         ("", &["link[1].stiffness: expected a stiffness in N/m, or a dashpot in N s/m, or both (missing)"][..]),
         (
             "stiffness = 0\ndashpot = 0.0",
+            &["link[1].stiffness = 0: expected a stiffness > 0, or a dashpot > 0: nothing would be there"],
+        ),
+        (
+            "stiffness = 0.0",
             &["link[1].stiffness = 0.0: expected a stiffness > 0, or a dashpot > 0: nothing would be there"],
         ),
+        ("dashpot = 0", &["link[1].dashpot = 0: expected a stiffness > 0, or a dashpot > 0: nothing would be there"]),
         ("stiffness = 1\ndashpot = -1", &["link[1].dashpot = -1.0: expected a finite dashpot >= 0 N s/m"]),
         ("stiffness = inf", &["link[1].stiffness = inf: expected a finite stiffness >= 0 N/m"]),
         ("stiffness = -1", &["link[1].stiffness = -1.0: expected a finite stiffness >= 0 N/m"]),
