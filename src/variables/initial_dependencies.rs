@@ -59,8 +59,12 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::OfYielding(YieldingOf::Shear, side, storey) => {
             is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
         }
-        Output::OfYielding(YieldingOf::ResidualDrift | YieldingOf::PeakStabilityIndex, side, storey) => {
+        Output::OfYielding(YieldingOf::PeakStabilityIndex, side, storey) => {
             is_of_net_storey(scene, known, (side, storey)) && drifts(scene.building(side), storey)
+        }
+        Output::OfYielding(YieldingOf::ResidualDrift, side, storey) => {
+            is_of_net_storey(scene, known, (side, storey)) && drifts(scene.building(side), storey)
+                || is_of_rest(scene, side, known)
         }
         Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
             let hits = |p: &usize| scene.contacts[*p].columns() == Some((side, storey + 1));
@@ -110,6 +114,31 @@ fn is_of_modes(side: Side, known: Slot) -> bool {
 /// What moves with a foundation, and the springs below it.
 fn is_of_foundation(side: Side, known: Slot) -> bool {
     matches!(known, Slot::Parameter(Parameter::Foundation(s, key)) if s == side && key.is_of_frequencies())
+}
+
+/// Whether a parameter changes where a storey rests by the others that rest with it: those of a building that leans on its soil,
+/// and all that links join.
+fn is_of_rest(scene: &Scene, side: Side, known: Slot) -> bool {
+    let building = scene.building(side);
+    let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
+    let (is_linked, leans) = (!scene.links.is_empty(), rocks && building.has_gravity());
+    let is_within = |s: Side| is_linked || leans && s == side;
+    let is_of_storeys = |s: Side| {
+        let building = scene.building(s);
+        (0..building.mass.len()).any(|i| drifts(building, i) && is_of_net_storey(scene, known, (s, i)))
+    };
+    let is_displaced = |s: Side| scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
+    let sides = [Side::Left, Side::Right];
+    let is_of_springs = match known {
+        Slot::Parameter(Parameter::Foundation(s, FoundationKey::RockingStiffness)) => is_within(s),
+        Slot::Parameter(Parameter::Foundation(_, FoundationKey::SwayStiffness)) => is_linked,
+        Slot::Parameter(Parameter::LinkStiffness(_) | Parameter::SlipForce(_) | Parameter::LinkPostYieldRatio(_)) => {
+            true
+        }
+        _ => false,
+    };
+    sides.into_iter().any(|s| is_within(s) && is_of_storeys(s))
+        || is_of_springs && sides.into_iter().any(|s| is_within(s) && is_displaced(s))
 }
 
 /// What decides how far a contact is open: the gap, and where columns are hit that start out of place.

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 /// The knowns of each unknown.
-type Structure = BTreeMap<String, BTreeSet<String>>;
+pub type Structure = BTreeMap<String, BTreeSet<String>>;
 
-fn declared(description: &ModelDescription, unknowns: &[Unknown]) -> Structure {
+pub fn declared(description: &ModelDescription, unknowns: &[Unknown]) -> Structure {
     let name = |index: u32| description.variable_by_index(index).unwrap().name.clone();
     let known = |unknown: &Unknown| unknown.dependencies.as_ref().unwrap().iter().map(|i| name(*i)).collect();
     unknowns.iter().map(|unknown| (name(unknown.index), known(unknown))).collect()
@@ -31,7 +31,7 @@ fn differ(one: f64, other: f64) -> bool {
 }
 
 /// Which unknowns change in initialization mode with which knowns, with the gaps open or closed to begin with.
-fn seen_at_start(fmu: &Fmu, record: &str) -> Structure {
+pub fn seen_at_start(fmu: &Fmu, record: &str) -> Structure {
     let variables = &fmu.description.modelVariables;
     let of = |wanted: fn(&Causality) -> bool| variables.iter().filter(|v| wanted(&v.causality)).collect::<Vec<_>>();
     let unknowns = of(|c| matches!(c, Causality::Output | Causality::CalculatedParameter));
@@ -95,7 +95,7 @@ fn note(seen: &mut Structure, unknowns: &[&ScalarVariable], known: &str, differs
     }
 }
 
-fn compare(seen: &Structure, declared: &Structure) {
+pub fn compare(seen: &Structure, declared: &Structure) {
     let mut wrong = Vec::new();
     for (unknown, expected) in seen {
         let said = &declared[unknown];
