@@ -4,6 +4,7 @@
 //! Pictures are drawn from it: what faces what is worked out in one place, the scene.
 
 use pounding::scene::{Building, ContactPair, Face, Link, Place, Scene, Share, Side, Soil};
+use pounding::structure::period_ratio;
 use serde::Serialize;
 
 /// As `--layout` writes it, and in the data of the page.
@@ -29,6 +30,8 @@ struct Standing {
 /// What the soil is made of under a foundation, side by side, for each way in which the foundation moves.
 #[derive(Serialize)]
 struct Soils {
+    /// The first period on it over that on a fixed base.
+    period_ratio: f64,
     sway: Vec<Part>,
     rocking: Vec<Part>,
 }
@@ -90,10 +93,11 @@ impl Layout<'_> {
 fn standing(building: &Building) -> Standing {
     let floors = building.mass.len();
     let levels = building.heights.as_ref().map(|heights| (0..=floors).map(|floor| heights.level(floor)).collect());
-    let soils = building
-        .foundation
-        .as_ref()
-        .map(|foundation| Soils { sway: parts(foundation.sway), rocking: parts(foundation.rocking) });
+    let soils = building.foundation.as_ref().map(|foundation| Soils {
+        period_ratio: period_ratio(building),
+        sway: parts(foundation.sway),
+        rocking: parts(foundation.rocking),
+    });
     Standing { floors, levels, foundation: soils }
 }
 
