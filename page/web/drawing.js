@@ -190,7 +190,11 @@ export class Drawing {
       context.lineWidth = yields ? this.column + 2 : this.column;
       context.setLineDash(yields ? [5, 3] : []);
       const lean = geometry.leanOf(side, storey, moved) * place.across;
-      offsets.forEach((offset) => this.#columnLine(edges, levels, { storey, offset, lean }));
+      const slope = this.#slope(side, storey, moved);
+      for (const offset of offsets) {
+        const down = slope * (offset - place.width / 2);
+        this.#columnLine(edges, levels, { storey, offset, lean, down });
+      }
     }
     context.setLineDash([]);
     for (let floor = 1; floor < edges.length; floor++) {
@@ -199,13 +203,14 @@ export class Drawing {
     }
   }
 
-  #columnLine(edges, levels, { storey, offset, lean }) {
+  #columnLine(edges, levels, { storey, offset, lean, down }) {
     const { context } = this;
     const [low, high] = [edges[storey - 1] + offset, edges[storey] + offset];
     context.beginPath();
     for (let point = 0; point <= COLUMN_POINTS; point++) {
       const s = point / COLUMN_POINTS;
-      context.lineTo(bent(low, high, lean, s), levels[storey - 1] + (levels[storey] - levels[storey - 1]) * s);
+      const y = levels[storey - 1] + (levels[storey] - levels[storey - 1]) * s;
+      context.lineTo(bent(low, high, lean, s), y + down);
     }
     context.stroke();
   }

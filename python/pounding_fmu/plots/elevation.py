@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import Rectangle
 
 from .devices import Device, stacked
 from .layout import SIDES, Contact, Layout, Link, clamped, slabs_of
-from .soil import STILL, Foot, Foundation, Slab
+from .soil import STILL, Column, Foot, Foundation, Slab
 from .style import BUILDINGS, GREY, SOLID
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 USUAL_GAP = 50.0
 # Shares of the width of a building: from the edge of a slab to its link, and to what holds the link on the ground.
 INSET, TO_GROUND = 0.2, 0.3
-LOWEST_STOREY = 0.12  # of the whole height, for foundations to be seen
+STOREYS_ON_SOIL = 0.12, 0.25  # of the whole height, least and most: for foundations to be seen, and not to be towers
 
 
 class Elevation:
@@ -38,7 +38,7 @@ class Elevation:
         self.links = [
             Device(axes, link, self.ends_of(link), storey, hung) for link, hung in zip(scene.links, stacked(scene.links))
         ]
-        on_soil = max(storey, LOWEST_STOREY * (scene.top - scene.bottom))
+        on_soil = float(np.clip(storey, *(share * (scene.top - scene.bottom) for share in STOREYS_ON_SOIL)))
         self.foundations = {
             side: Foundation(axes, scene, side, self.inner[side][0], width, on_soil) for side in scene.foundations
         }
@@ -127,12 +127,11 @@ class Building:
         # From the inner edge to the left end of a slab. Columns stand a little inside of its ends, unless they are hit.
         self.inner = -width if side == "left" else 0.0
         inset = 0.0 if any(is_hit(pair, side) for pair in scene.contacts) else 0.06 * width
-        self.columns = [self.inner + inset, self.inner + width - inset - self.thickness]
-        self.polygons = [Polygon(np.zeros((1, 2)), facecolor=colour, edgecolor="none") for _ in "12"]
+        self.offsets = [self.inner + inset, self.inner + width - inset - self.thickness]
+        asides = [offset + self.thickness / 2 - self.inner - width / 2 for offset in self.offsets]
+        self.columns = [Column(axes, aside, colour) for aside in asides]
         self.slabs = [Slab(axes, level, (width, slab), colour) for level in self.levels[1:]]
         self.rise = scene.rise(side) if side in scene.foundations else np.zeros(len(edges))
-        for polygon in self.polygons:
-            axes.add_patch(polygon)
         self.place(np.zeros(len(edges)), STILL)
 
     def place(self, displacements: NDArray[Any], foot: Foot) -> None:
@@ -141,9 +140,9 @@ class Building:
         for slab, x, lean in zip(self.slabs, at, leans):
             slab.place(x + self.inner, lean)
         across, up = bend(np.concatenate([[self.edges[0] + foot.displacement], at]), self.levels, leans)
-        for polygon, offset in zip(self.polygons, self.columns):
+        for column, offset in zip(self.columns, self.offsets):
             sides = [across + offset, across[::-1] + offset + self.thickness]
-            polygon.set_xy(np.column_stack([np.concatenate(sides), np.concatenate([up, up[::-1]])]))
+            column.place(np.column_stack([np.concatenate(sides), np.concatenate([up, up[::-1]])]), float(leans[0]))
 
 
 def is_hit(pair: Contact, side: str) -> bool:

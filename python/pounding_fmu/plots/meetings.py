@@ -53,7 +53,7 @@ def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None
 
 
 def words(scene: Layout) -> list[str]:
-    """A line for each contact, the floors that have none, and a line for each link."""
+    """A line for each contact, the floors that have none, a line for each way of a foundation and for each link."""
     lines = []
     for p, pair in enumerate(scene.contacts, 1):
         at = [f" at {surface['position']:.3g}" for surface in pair.surfaces.values() if surface["kind"] == "columns"]
@@ -64,8 +64,8 @@ def words(scene: Layout) -> list[str]:
         if alone:
             lines += ["", f"no contact: {side} floor {', '.join(map(str, alone))}"]
     for side, soil in scene.foundations.items():
-        ways = [f"{way} on {' and '.join(soil[key])}" for way, key in (("sways", "sway"), ("rocks", "rocking")) if soil[key]]
-        lines += ["", f"{side} foundation {', '.join(ways)}"]
+        ways = [("sways", soil["sway"]), ("rocks", soil["rocking"])]
+        lines += ["", *(f"{side} foundation {way}: {' and '.join(parts)}" for way, parts in ways if parts)]
     links = [f"link {at}   {link.name}: {link.made_of}" for at, link in enumerate(scene.links, 1)]
     return [*lines, "", *links] if links else lines
 
