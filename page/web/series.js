@@ -72,7 +72,7 @@ function foundationLines(run, part) {
 
 const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "soil", "hysteretic", "impact", "gravity"];
 
-const OF_FOUNDATIONS = [
+const FOUNDATION_CHARTS = [
   ["displacement", "Displacement of foundations", "m"],
   ["rotation", "Rotation of foundations", "rad"],
   ["force", "Force on the soil", "N"],
@@ -103,7 +103,7 @@ export function chartsOf(run, floors) {
     },
     { id: "link-force", title: "Link force", unit: "N", lines: linkLines(run, "force") },
     { id: "link-displacement", title: "Link displacement", unit: "m", lines: linkLines(run, "displacement") },
-    ...OF_FOUNDATIONS.map(([part, title, unit]) => ({
+    ...FOUNDATION_CHARTS.map(([part, title, unit]) => ({
       id: `foundation-${part}`,
       title,
       unit,

@@ -58,7 +58,7 @@ class RequiredGap:
     else None"""
     ddc: float | None
     """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]; None
-    where there are links, which change these modes"""
+    where there are links or soil, which change these modes"""
     force_gap: float | None = None
     """from which on no gap has a larger force than the limit, to 1e-6 m on the safe side; None without a limit"""
     hardest_force: float | None = None
