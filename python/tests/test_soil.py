@@ -15,7 +15,12 @@ SOIL = {"mass": 5e3, "inertia": 40e3, "rocking": {"stiffness": 60e6, "dashpot": 
 SWAY = {"stiffness": 12e6, "dashpot": 60e3}
 CONTACT = {"left_floor": 1, "right_floor": 1, "gap": 0.02, "law": "linear", "stiffness": 2e8}
 PGA = 3.43  # m/s2
-OUTPUTS = {"displacement_m": "peak_displacement", "rotation_rad": "peak_rotation", "force_n": "peak_force", "moment_n_m": "peak_moment"}
+OUTPUTS = {
+    "displacement_m": "peak_displacement",
+    "rotation_rad": "peak_rotation",
+    "force_n": "peak_force",
+    "moment_n_m": "peak_moment",
+}
 
 
 def scene(right_height=3.0, **contact):

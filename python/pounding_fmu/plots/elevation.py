@@ -38,7 +38,8 @@ class Elevation:
         self.links = [
             Device(axes, link, self.ends_of(link), storey, hung) for link, hung in zip(scene.links, stacked(scene.links))
         ]
-        on_soil = float(np.clip(storey, *(share * (scene.top - scene.bottom) for share in STOREYS_ON_SOIL)))
+        least, most = (share * (scene.top - scene.bottom) for share in STOREYS_ON_SOIL)
+        on_soil = min(max(storey, least), most)
         self.foundations = {
             side: Foundation(axes, scene, side, self.inner[side][0], width, on_soil) for side in scene.foundations
         }

@@ -34,7 +34,7 @@ class Foot(NamedTuple):
 STILL = Foot()
 
 
-def tilt(axes: Axes, lean: float) -> float:
+def tilt(axes: Any, lean: float) -> float:
     """By how many levels a mm across goes down where columns lean by so many mm a level: at a right angle in the picture."""
     x, y = np.diag(axes.transData.transform([[1.0, 0.0], [0.0, 1.0]]) - axes.transData.transform((0.0, 0.0)))
     return lean * float(x / y) ** 2
