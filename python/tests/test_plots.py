@@ -218,6 +218,10 @@ def test_foundations_are_drawn_with_their_soil_and_move_with_it():
             up = column[len(column) // 2 - 2] - column[0]
             assert along @ up == pytest.approx(0.0, abs=1e-6 * np.hypot(*along) * np.hypot(*up))
         assert along[1] < -1.0
+    # What they stand on is the tilted block.
+    for column, share in zip(columns, [0.085, 0.915]):
+        corners = axes.transData.transform(left.block.get_xy())
+        assert column[0][1] == pytest.approx(corners[3][1] + share * (corners[2] - corners[3])[1], abs=0.5)
     slab = elevation.buildings["right"].slabs[0].get_xy()
     assert slab[0][1] == slab[1][1]
 

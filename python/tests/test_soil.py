@@ -68,7 +68,8 @@ def test_rules_for_gaps_have_the_displacements_of_what_meets():
     del facing["contact"][0]["right_floor"]
     facing["contact"][0] |= {"right_storey": 1}
     [row] = required_gap(facing)
-    free = pounding_fmu.simulate({**facing, "contact": []})
+    with pytest.warns(pounding_fmu.SceneWarning, match="no contact"):
+        free = pounding_fmu.simulate({**facing, "contact": []})
     peak = {name: free[name][-1] for name in free if "peak" in name}
     s = 3.0 / 4.5
     upper = s * s * (3 - 2 * s)
@@ -85,7 +86,7 @@ def test_the_command_says_what_soil_is_to_the_gap(tmp_path, capsys):
 
 
 def test_rows_of_a_study_are_runs_on_that_soil(tmp_path):
-    name, values = "left.foundation.rocking_stiffness", [30e6, 120e6]
+    name, values = "left.foundation.rocking_stiffness", [50e6, 120e6]
     rows = run_study(text(scene()), [fmus.RECORD], gaps=[0.02], pga=[PGA], stop=4.0, vary={name: values}, output=tmp_path)
     assert not rows.failures
     peak = np.abs(np.loadtxt(fmus.RECORD, delimiter=",", comments=("#", "t"), usecols=1)).max()
