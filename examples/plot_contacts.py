@@ -84,7 +84,8 @@ def pressed(scene, p, right_top):
     contact = scene.contacts[p - 1]
     moved = leaning(scene, {"left": 1.0, "right": right_top})
     left, right = 0.0, 1e3 * contact.gap
-    for side, floor, weight in contact.row:
+    for side, name, weight in contact.row:
+        floor = int(name.removeprefix("displacement[").removesuffix("]"))
         if weight > 0:
             left += weight * moved[side][floor - 1]
         else:
