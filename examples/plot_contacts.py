@@ -79,12 +79,17 @@ def leaning(scene, most):
     }
 
 
+def floors_of(contact):
+    """Side, number and share of the floors that take part in a contact of buildings on a fixed base."""
+    return [(side, int(name.removeprefix("displacement[").removesuffix("]")), share) for side, name, share in contact.row]
+
+
 def pressed(scene, p, right_top):
     """The right building leans and the left one so far that contact p closes."""
     contact = scene.contacts[p - 1]
     moved = leaning(scene, {"left": 1.0, "right": right_top})
     left, right = 0.0, 1e3 * contact.gap
-    for side, floor, weight in contact.row:
+    for side, floor, weight in floors_of(contact):
         if weight > 0:
             left += weight * moved[side][floor - 1]
         else:
@@ -126,7 +131,7 @@ def floor_and_columns(scene):
     moved = pressed(scene, 1, 90.0)
     stand(closed, scene, WIDTH, "Pressed: F on the slab, shares of F opposite", moved, margin=0.35)
     push(closed, moved["left"][-1] - 5, contact.height + 0.3, -0.5 * WIDTH, "F")
-    shares = {floor: -weight for side, floor, weight in contact.row if side == "right"}
+    shares = {floor: -weight for side, floor, weight in floors_of(contact) if side == "right"}
     # What the floors do not take is the ground's.
     shares.setdefault(storey - 1, 1.0 - sum(shares.values()))
     for floor, share in shares.items():

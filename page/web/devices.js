@@ -1,5 +1,6 @@
 // Links as engineers draw them, on a canvas: springs as zigzags, dashpots as pistons in cups, friction as a block
-// between two plates behind its spring; side by side what is parallel, hung below the slabs that they join.
+// between two plates behind its spring; side by side what is parallel, hung below the slabs that they join. Soil under
+// foundations is drawn of the same parts.
 
 const TEETH = 4;
 const DEVICE_LINE = 1.6;
@@ -39,6 +40,13 @@ export class Devices {
       const below = depth(first + row);
       this.#part(part, { x: from.x, y: from.y + below }, { x: to.x, y: to.y + below }, rest, slips);
     });
+  }
+
+  // A part from one point to another.
+  upright(part, from, to, rest) {
+    Object.assign(this.context, { strokeStyle: this.colours.ink, lineWidth: DEVICE_LINE });
+    this.context.setLineDash([]);
+    this.#part(part, from, to, rest, false);
   }
 
   // What a link on the ground ends at.

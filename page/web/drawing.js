@@ -1,8 +1,8 @@
-// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, links, and the impacts that have
-// just been. The report of a run has it as well, at rest (simulate/src/report.rs).
+// One picture of the buildings on a canvas: ground, foundations, slabs, columns, walls, contacts, links, and the impacts
+// that have just been. The report of a run has it as well, at rest (simulate/src/report.rs).
 
 import { Devices } from "./devices.js";
-import { bend } from "./geometry.js";
+import { bent } from "./geometry.js";
 import { SIDES } from "./motion.js";
 
 const COLUMN_POINTS = 12;
@@ -13,18 +13,26 @@ const NUMBER = 8;
 // farthest that a floor goes.
 const INSET = 24;
 const TO_GROUND = 30;
+// Pixels of a foundation: its thickness, how far it stands out, from its ends to what it rocks on, from one part of that
+// to the next, and from the level of the ground floor to the bottom of the pit.
+const THICK = 12;
+const OUT = 6;
+const POST = 14;
+const BESIDE = 20;
+const PIT = 54;
 
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
   const two = geometry.sides.length === 2;
-  const height = box.height - 74;
+  const pit = Object.keys(geometry.soil).length > 0 ? PIT : 0;
+  const height = box.height - 74 - pit;
   const up = height / (geometry.top - geometry.bottom);
   const width = Math.max(44, Math.min(0.3 * box.width, 0.62 * height, 210));
   const room = Math.max(16, Math.min(0.15 * box.width, (0.92 * box.width - (two ? 2 : 1) * width) / 2.6));
   const across = (room / Math.max(reach, geometry.gap, 1e-6)) * 2 ** size;
   const middle = geometry.sides.includes("left") ? (two ? geometry.gap / 2 : -width / across / 2) : width / across / 2;
   const x = (metres) => box.x + box.width / 2 + (metres - middle) * across;
-  const y = (level) => box.y + box.height - 36 - (level - geometry.bottom) * up;
+  const y = (level) => box.y + box.height - 36 - pit - (level - geometry.bottom) * up;
   return { box, up, across, x, y, width, farthest: reach * across };
 }
 
@@ -49,7 +57,8 @@ export class Drawing {
     context.clip();
     this.#ground(ground);
     for (const wall of this.geometry.walls) this.#wall(wall);
-    for (const side of this.geometry.sides) this.#building(side, moved[side], yielding);
+    for (const side of Object.keys(this.geometry.soil)) this.#foundation(side, moved);
+    for (const side of this.geometry.sides) this.#building(side, moved, yielding);
     this.#links(moved, slipping);
     for (const flash of flashes) this.#flash(flash, moved);
     if (numbered) this.#numbers(moved);
@@ -69,7 +78,7 @@ export class Drawing {
     const { context, place, colours, geometry } = this;
     const { x, width } = place.box;
     context.fillStyle = colours.line;
-    const levels = geometry.sides.map((side) => place.y(geometry.levels[side][0]));
+    const levels = geometry.sides.map((side) => this.#groundOf(side));
     const middle = place.x(geometry.gap / 2);
     levels.forEach((level, at) => {
       const [from, to] = levels.length === 1 ? [x, x + width] : at === 0 ? [x, middle] : [middle, x + width];
@@ -79,6 +88,11 @@ export class Drawing {
     for (const side of geometry.sides)
       this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
     if (ground) this.#arrow(place.x(geometry.gap / 2), bottom - 22, ground);
+  }
+
+  // What a building stands on, in pixels.
+  #groundOf(side) {
+    return this.place.y(this.geometry.levels[side][0]) + (this.geometry.soil[side] ? PIT : 0);
   }
 
   // The acceleration of the ground, as long as its share of the peak.
@@ -116,16 +130,57 @@ export class Drawing {
     context.lineWidth = 1.5;
     const far = onLeft ? Math.max(place.box.x, face - 46) : Math.min(place.box.x + place.box.width, face + 46);
     const [from, to] = onLeft ? [far, face] : [face, far];
-    const bottom = place.y(geometry.bottom) + 5;
+    const bottom = Math.max(...geometry.sides.map((side) => this.#groundOf(side)), place.y(geometry.bottom)) + 5;
     context.fillRect(from, top, to - from, bottom - top);
     context.strokeRect(from, top, to - from, bottom - top);
   }
 
-  #building(side, moved, yielding) {
-    const { context, place, geometry, colours } = this;
-    const edges = moved.map(
+  // Left ends of the foundation and of all slabs.
+  #edges(side, moved) {
+    const { place, geometry } = this;
+    return moved[side].map(
       (u, floor) => place.x(geometry.inner[side][floor] + u) + (side === "left" ? -place.width : 0),
     );
+  }
+
+  // A block, what it rocks on below it, and beside it what holds its sway on the ground, away from the gap.
+  #foundation(side, moved) {
+    const { context, place, geometry, colours } = this;
+    const { sway, rocking } = geometry.soil[side];
+    const [top, ground] = [place.y(geometry.levels[side][0]), this.#groundOf(side)];
+    const [rest, x] = [geometry.atRest(), moved].map((at) => this.#edges(side, at)[0] - OUT);
+    const [wide, slope] = [place.width + 2 * OUT, this.#slope(side, 1, moved)];
+    const soil = new Devices(context, colours, Infinity);
+    for (const sign of [-1, 1]) {
+      rocking.forEach((part, at) => {
+        const aside = sign * (wide / 2 - POST - at * BESIDE);
+        const from = { x: rest + wide / 2 + aside, y: ground };
+        const to = { x: x + wide / 2 + aside, y: top + THICK + slope * aside };
+        soil.upright(part, from, to, ground - top - THICK);
+      });
+    }
+    if (sway.length > 0) this.#sway(soil, side, sway, { top, rest, x, wide });
+    this.#tilted(side, { x, y: top + THICK / 2, wide, high: THICK, slope });
+  }
+
+  #sway(soil, side, parts, { top, rest, x, wide }) {
+    const away = TO_GROUND + this.place.farthest;
+    const [ground, block] = side === "left" ? [rest - away, x] : [rest + wide + away, x + wide];
+    const ends = [ground, block].map((at) => ({ x: at, y: top }));
+    const [from, to] = side === "left" ? ends : ends.reverse();
+    soil.draw({ parts, from, to, rest: away, keys: [side], slab: 0, grounded: side, slips: false });
+  }
+
+  // Pixels down for each pixel to the right: slabs are at a right angle to what leans with the foundation.
+  #slope(side, storey, moved) {
+    const { place, geometry } = this;
+    const high = geometry.levels[side][storey] - geometry.levels[side][storey - 1];
+    return (geometry.leanOf(side, storey, moved) * place.across) / (high * place.up);
+  }
+
+  #building(side, moved, yielding) {
+    const { context, place, geometry, colours } = this;
+    const edges = this.#edges(side, moved);
     const levels = geometry.levels[side].map(place.y);
     const inset = geometry.hit[side] ? 0 : Math.min(10, 0.07 * place.width);
     const offsets = [inset + this.column / 2, place.width - inset - this.column / 2];
@@ -134,31 +189,44 @@ export class Drawing {
       context.strokeStyle = colours[side];
       context.lineWidth = yields ? this.column + 2 : this.column;
       context.setLineDash(yields ? [5, 3] : []);
-      offsets.forEach((offset) => this.#columnLine(edges, levels, storey, offset));
+      const lean = geometry.leanOf(side, storey, moved) * place.across;
+      const slope = this.#slope(side, storey, moved);
+      for (const offset of offsets) {
+        const down = slope * (offset - place.width / 2);
+        this.#columnLine(edges, levels, { storey, offset, lean, down });
+      }
     }
     context.setLineDash([]);
-    for (let floor = 1; floor < edges.length; floor++) this.#slab(side, edges[floor], levels[floor]);
+    for (let floor = 1; floor < edges.length; floor++) {
+      const slope = this.#slope(side, floor, moved);
+      this.#tilted(side, { x: edges[floor], y: levels[floor], wide: place.width, high: this.slab, slope });
+    }
   }
 
-  #columnLine(edges, levels, storey, offset) {
+  #columnLine(edges, levels, { storey, offset, lean, down }) {
     const { context } = this;
     const [low, high] = [edges[storey - 1] + offset, edges[storey] + offset];
     context.beginPath();
     for (let point = 0; point <= COLUMN_POINTS; point++) {
       const s = point / COLUMN_POINTS;
-      context.lineTo(low + (high - low) * bend(s), levels[storey - 1] + (levels[storey] - levels[storey - 1]) * s);
+      const y = levels[storey - 1] + (levels[storey] - levels[storey - 1]) * s;
+      context.lineTo(bent(low, high, lean, s), y + down);
     }
     context.stroke();
   }
 
-  #slab(side, x, y) {
-    const { context, place, colours, slab } = this;
+  // A slab or a block about its middle.
+  #tilted(side, { x, y, wide, high, slope }) {
+    const { context, colours } = this;
+    context.save();
+    context.transform(1, slope, 0, 1, 0, -slope * (x + wide / 2));
     context.fillStyle = colours[side];
-    context.fillRect(x, y - slab / 2, place.width, slab);
-    if (side === "right" && slab >= 4) {
+    context.fillRect(x, y - high / 2, wide, high);
+    if (side === "right" && high >= 4) {
       context.fillStyle = this.hatch.right;
-      context.fillRect(x, y - slab / 2, place.width, slab);
+      context.fillRect(x, y - high / 2, wide, high);
     }
+    context.restore();
   }
 
   #links(moved, slipping) {

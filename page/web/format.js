@@ -24,6 +24,15 @@ const SHOWN = {
     ["kN", 1e-3, 1e5],
     ["MN", 1e-6, Infinity],
   ],
+  "N.m": [
+    ["N m", 1, 1e4],
+    ["kN m", 1e-3, 1e5],
+    ["MN m", 1e-6, Infinity],
+  ],
+  rad: [
+    ["mrad", 1e3, 1e4],
+    ["rad", 1, Infinity],
+  ],
   "N.s": [
     ["N s", 1, 1e4],
     ["kN s", 1e-3, 1e5],

@@ -1,4 +1,4 @@
-// Where buildings, contacts and walls stand at rest: across in m from the left building's edge at the gap, upwards by
+// Where buildings, foundations, contacts and walls stand at rest: across in m from the left building's edge at the gap, upwards by
 // the levels of the scene, or, without them, with all storeys equally high.
 
 import { SIDES } from "./motion.js";
@@ -12,6 +12,11 @@ export class Geometry {
     this.hasLevels = this.sides.every((side) => layout[side].levels);
     this.floors = Object.fromEntries(SIDES.map((side) => [side, layout[side]?.floors ?? 0]));
     this.levels = Object.fromEntries(SIDES.map((side) => [side, this.#levelsOf(layout[side])]));
+    // m, from floor to floor, where the scene says it.
+    const told = (side) => layout[side]?.levels ?? [];
+    this.heights = Object.fromEntries(SIDES.map((side) => [side, told(side).slice(1).map((l, at) => l - told(side)[at])]));
+    // What the soil under each foundation is made of.
+    this.soil = Object.fromEntries(this.sides.map((side) => [side, layout[side].foundation]).filter(([, soil]) => soil));
     const all = SIDES.flatMap((side) => this.levels[side]);
     [this.bottom, this.top] = [Math.min(0, ...ends(all)), Math.max(...ends(all), 1e-9)];
     this.contacts = layout.contacts.map((contact) => this.#contactOf(contact));
@@ -56,9 +61,15 @@ export class Geometry {
     return this.levels.right.map((level) => interpolate(known, level));
   }
 
-  // Displacements of floors that are not displaced.
+  // Displacements of floors and rotations of foundations that have not moved.
   atRest() {
-    return Object.fromEntries(SIDES.map((side) => [side, this.levels[side].map(() => 0)]));
+    const still = Object.fromEntries(SIDES.map((side) => [side, this.levels[side].map(() => 0)]));
+    return { ...still, turned: { left: 0, right: 0 } };
+  }
+
+  // m by which a storey leans with its foundation.
+  leanOf(side, storey, moved) {
+    return moved.turned[side] ? this.heights[side][storey - 1] * moved.turned[side] : 0;
   }
 
   // Left and right side of the gap of a contact, m across, for floors that are displaced; `width` is that of a
@@ -82,18 +93,20 @@ export class Geometry {
     if (surface.kind === "wall") return null;
     const { side } = surface;
     const edge = (floor) => this.inner[side][floor] + moved[side][floor];
-    const x = surface.kind === "floor" ? edge(surface.floor) : this.#bent(surface, edge);
+    const x = surface.kind === "floor" ? edge(surface.floor) : this.#bent(surface, edge, this.leanOf(side, surface.storey, moved));
     return side === on ? x : x + (side === "left" ? -width : width);
   }
 
-  #bent({ storey, position }, edge) {
-    const share = bend(position);
-    return (1 - share) * edge(storey - 1) + share * edge(storey);
+  #bent({ storey, position }, edge, lean) {
+    return bent(edge(storey - 1), edge(storey), lean, position);
   }
 }
 
 // Shape of a column between its floors, clamped at both ends.
-export const bend = (s) => s * s * (3 - 2 * s);
+const bend = (s) => s * s * (3 - 2 * s);
+
+// Where columns are at a share of their height: their ends lean as the foundation does.
+export const bent = (low, high, lean, share) => low + (high - low - lean) * bend(share) + lean * share;
 
 const ends = (values) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0]);
 

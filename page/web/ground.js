@@ -183,7 +183,7 @@ export class Ground {
     for (const side of SIDES) {
       const period = this.state.look?.[side]?.periods?.[0];
       if (period)
-        make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, {
+        make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s${onSoil(this.state.look, side)}`, {
           class: `hint of-${side}`,
         });
     }
@@ -219,6 +219,12 @@ export class Ground {
   #say(text) {
     element("record-says").textContent = text;
   }
+}
+
+// What a foundation makes of the first period.
+function onSoil(look, side) {
+  const ratio = look.layout[side].foundation?.period_ratio;
+  return ratio ? `, ${digits(ratio * look[side].periods[0], 3)} s on its soil` : "";
 }
 
 function markPeriod(plot, side, period, isLeftmost) {

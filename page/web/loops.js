@@ -102,9 +102,8 @@ export class Loops {
   #storey({ side, storey, ductility }) {
     const { columns, time } = this.state.run;
     const shear = columns[`${side}.storey_shear[${storey}]`];
-    const [above, below] = [storey, storey - 1].map((floor) => columns[`${side}.displacement[${floor}]`]);
-    if (!shear || !above) return null;
-    const drift = below ? above.map((value, row) => value - below[row]) : above;
+    const drift = driftOf(this.state.run, side, storey);
+    if (!shear || !drift) return null;
     return {
       caption: `${side} storey ${storey}: ductility ${digits(ductility, 3)}`,
       x: drift,
@@ -143,6 +142,15 @@ export class Loops {
     context.arc(...place(...at(rowBefore(times, time))), 4, 0, 2 * Math.PI);
     context.fill();
   }
+}
+
+// What strains the columns of a storey: without the part that leans with the foundation.
+function driftOf({ columns, look }, side, storey) {
+  const above = columns[`${side}.displacement[${storey}]`];
+  const below = columns[storey > 1 ? `${side}.displacement[${storey - 1}]` : `${side}.foundation.displacement`];
+  const rotation = columns[`${side}.foundation.rotation`];
+  const height = rotation ? look[side].heights[storey - 1] : 0;
+  return above?.map((value, row) => value - (below?.[row] ?? 0) - (rotation ? height * rotation[row] : 0));
 }
 
 function extent(values, factor) {

@@ -1,4 +1,4 @@
-// Where the floors are at any time of a run: between two rows a cubic through displacements and velocities.
+// Where floors and foundations are at any time of a run: between two rows a cubic through displacements and velocities.
 
 export const SIDES = ["left", "right"];
 
@@ -17,27 +17,34 @@ export class Motion {
   constructor(run) {
     this.run = run;
     const of = (side, name) => {
-      const columns = [];
+      // Below the floors the foundation, or the ground.
+      const columns = [run.columns[`${side}.foundation.${name}`]];
       for (let i = 1; run.columns[`${side}.${name}[${i}]`]; i++) columns.push(run.columns[`${side}.${name}[${i}]`]);
       return columns;
     };
     this.displacements = Object.fromEntries(SIDES.map((side) => [side, of(side, "displacement")]));
     this.velocities = Object.fromEntries(SIDES.map((side) => [side, of(side, "velocity")]));
+    const foundation = (side, name) => run.columns[`${side}.foundation.${name}`];
+    this.rotations = SIDES.map((side) => [side, foundation(side, "rotation"), foundation(side, "rotation_rate")]);
   }
 
-  // Displacement of each floor, m, the lowest first; 0 before it for the ground.
+  // Displacement of each floor, m, the lowest first, before it that of the foundation, 0 for the ground; and by how much
+  // each foundation has turned, rad.
   at(time) {
     const { time: times } = this.run;
     const row = rowBefore(times, time);
     const next = Math.min(row + 1, times.length - 1);
     const step = times[next] - times[row] || 1;
     const share = Math.min(1, Math.max(0, (time - times[row]) / step));
-    const place = (side) => (column, floor) => {
-      const velocity = this.velocities[side][floor];
+    const between = (column, velocity) => {
+      if (!column) return 0;
       if (!velocity) return column[row] + share * (column[next] - column[row]);
       return cubic(share, column[row], column[next], step * velocity[row], step * velocity[next]);
     };
-    return Object.fromEntries(SIDES.map((side) => [side, [0, ...this.displacements[side].map(place(side))]]));
+    const place = (side) => this.displacements[side].map((column, at) => between(column, this.velocities[side][at]));
+    const moved = Object.fromEntries(SIDES.map((side) => [side, place(side)]));
+    const turned = this.rotations.map(([side, rotation, rate]) => [side, between(rotation, rate)]);
+    return { ...moved, turned: Object.fromEntries(turned) };
   }
 
   // A column of the run at a time, by the line between two rows.

@@ -1,5 +1,5 @@
-// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, and of each
-// link, with the times at which they were reached; a time goes there.
+// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, of each
+// foundation and of each link, with the times at which they were reached; a time goes there.
 
 import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
@@ -15,6 +15,13 @@ const QUANTITIES = [
 const OF_LINKS = [
   { part: "peak_force", title: "force", unit: "N" },
   { part: "peak_displacement", title: "displacement", unit: "m" },
+];
+
+const OF_FOUNDATIONS = [
+  { part: "peak_displacement", title: "displacement", unit: "m" },
+  { part: "peak_rotation", title: "rotation", unit: "rad" },
+  { part: "peak_force", title: "force on the soil", unit: "N" },
+  { part: "peak_moment", title: "moment on the soil", unit: "N.m" },
 ];
 
 export class Peaks {
@@ -38,6 +45,7 @@ export class Peaks {
         { class: "hint" },
       );
     for (const side of sides) this.#building(panel, side);
+    this.#foundations(panel);
     this.#links(panel);
     this.#yielding(panel);
   }
@@ -62,6 +70,32 @@ export class Peaks {
     }
     const shear = run.columns[`${side}.peak_base_shear`];
     if (shear) this.#shear(panel, shear);
+  }
+
+  // A row for each foundation; a way in which none moves has no column.
+  #foundations(panel) {
+    const { columns, look } = this.state.run;
+    const sides = SIDES.filter((side) => look.layout[side].foundation);
+    if (sides.length === 0) return;
+    const name = (part, side) => `${side}.foundation.${part}`;
+    const known = OF_FOUNDATIONS.filter(({ part }) => sides.some((side) => columns[name(part, side)]));
+    const looks = known.map((of) => this.#unitOf((at) => name(of.part, sides[at - 1]), sides.length, of));
+    const table = make(panel, "table", "", { class: "numbers" });
+    make(table, "caption", "Foundations");
+    const head = make(make(table, "thead"), "tr");
+    for (const title of ["building", "first period / on a fixed base"]) make(head, "th", title, { scope: "col" });
+    known.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
+    const body = make(table, "tbody");
+    for (const side of sides) {
+      const row = make(body, "tr");
+      make(row, "th", side, { scope: "row" });
+      make(row, "td", digits(look.layout[side].foundation.period_ratio));
+      known.forEach(({ part }, at) => {
+        const column = columns[name(part, side)];
+        if (column) this.#cell(row, column, looks[at]);
+        else make(row, "td");
+      });
+    }
   }
 
   // A row for each link that keeps its peaks.

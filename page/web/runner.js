@@ -273,7 +273,7 @@ export function wishes(look) {
   const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
   const contacts = look.layout.contacts.length;
   const links = look.layout.links.length;
-  const columns = 11 * floors + 10 * contacts + 9 * links + 12;
+  const columns = 11 * floors + 10 * contacts + 9 * links + 34;
   const most = MOST_NUMBERS_KEPT / columns;
   const isTall = most < FEWEST_ROWS;
   const step = Math.max(look.stop / Math.max(most, FEWEST_ROWS), Math.min(look.stop / ROWS, LONGEST_STEP));
@@ -288,6 +288,9 @@ function drawn(look, contacts, links) {
   const names = look.ground ? ["ground.acceleration"] : [];
   for (const side of ["left", "right"]) {
     for (let floor = 1; floor <= (look[side]?.floors ?? 0); floor++) names.push(`${side}.displacement[${floor}]`);
+    const soil = look.layout[side].foundation;
+    if (soil?.sway.length) names.push(`${side}.foundation.displacement`);
+    if (soil?.rocking.length) names.push(`${side}.foundation.rotation`);
   }
   for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++)
     names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);

@@ -64,7 +64,20 @@ function floorLines(run, part, chosen) {
   });
 }
 
-const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "hysteretic", "impact", "gravity"];
+// Of the foundations that move so.
+function foundationLines(run, part) {
+  const known = SIDES.map((side) => [`${side}.foundation.${part}`, side]).filter(([name]) => run.columns[name]);
+  return known.map(([name, side]) => ({ name, label: side, look: () => lineLook(side, 0) }));
+}
+
+const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "soil", "hysteretic", "impact", "gravity"];
+
+const FOUNDATION_CHARTS = [
+  ["displacement", "Displacement of foundations", "m"],
+  ["rotation", "Rotation of foundations", "rad"],
+  ["force", "Force on the soil", "N"],
+  ["moment", "Moment on the soil", "N.m"],
+];
 
 // All charts of a run; those without lines are left out.
 export function chartsOf(run, floors) {
@@ -90,6 +103,12 @@ export function chartsOf(run, floors) {
     },
     { id: "link-force", title: "Link force", unit: "N", lines: linkLines(run, "force") },
     { id: "link-displacement", title: "Link displacement", unit: "m", lines: linkLines(run, "displacement") },
+    ...FOUNDATION_CHARTS.map(([part, title, unit]) => ({
+      id: `foundation-${part}`,
+      title,
+      unit,
+      lines: foundationLines(run, part),
+    })),
     {
       id: "ground",
       title: "Ground acceleration",

@@ -48,18 +48,14 @@ export class Study {
 
   // m: how far both sides of a contact would overlap if they could, which is the gap that keeps them apart.
   async #needed(scene, records, look) {
-    const outputs = SIDES.flatMap((side) =>
-      Array.from({ length: look[side]?.floors ?? 0 }, (_, floor) => `${side}.displacement[${floor + 1}]`),
-    );
+    const of = look.layout.contacts.flatMap(({ row }) => row.map(([side, name]) => `${side}.${name}`));
+    const outputs = [...new Set(of)];
     const options = { records, outputs, step: wishes(look).step, withoutContacts: true };
     const free = await this.engine.simulate(scene, options, undefined, "study");
     let most = 0;
     for (const { row } of look.layout.contacts) {
       for (let at = 0; at < free.time.length; at++) {
-        const depth = row.reduce(
-          (sum, [side, floor, weight]) => sum + weight * free.columns[`${side}.displacement[${floor}]`][at],
-          0,
-        );
+        const depth = row.reduce((sum, [side, name, weight]) => sum + weight * free.columns[`${side}.${name}`][at], 0);
         most = Math.max(most, depth);
       }
     }

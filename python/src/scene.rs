@@ -4,7 +4,7 @@ use crate::document;
 use crate::records::Record;
 use pounding::description::Package;
 use pounding::scene::{Building, SceneError};
-use pounding::structure::{ModalDamping, Modes};
+use pounding::structure::{ModalDamping, Modes, period_ratio};
 use pounding::variables::{Parameter, Row, Slot, Type, Value};
 use pounding_simulate::layout::Layout;
 use pounding_simulate::scenario::Scenario;
@@ -106,7 +106,8 @@ impl Scene {
         toml::to_string(&scene).map_err(|error| unreadable(error.to_string()))
     }
 
-    /// Of the first mode of each building alone the period, s, and the ratio of critical damping.
+    /// Of the first mode of each building alone the period, s, on its soil if it has any, and the ratio of critical damping on
+    /// a fixed base.
     fn first_modes(&self) -> PyResult<[Option<(f64, f64)>; 2]> {
         let scene = &self.0.settings.scene;
         Ok([first_mode(&scene.left)?, first_mode(&scene.right)?])
@@ -119,7 +120,8 @@ fn first_mode(building: &Building) -> PyResult<Option<(f64, f64)>> {
         ModalDamping::Diagonal(each) => each.first().copied(),
         ModalDamping::Coupled(matrix) => matrix.get((0, 0)).copied(),
     };
-    Ok(modes.omega.first().zip(damping).map(|(omega, damping)| (TAU / omega, damping / (2.0 * omega))))
+    let first = modes.omega.first().zip(damping);
+    Ok(first.map(|(omega, damping)| (period_ratio(building) * TAU / omega, damping / (2.0 * omega))))
 }
 
 impl Scene {

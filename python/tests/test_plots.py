@@ -15,6 +15,7 @@ from pounding_fmu.plots.devices import APART, BELOW, DRAWN
 from pounding_fmu.plots.elevation import Elevation
 from pounding_fmu.plots.layout import Layout, clamped
 from pounding_fmu.plots.runs import Run, Runs
+from pounding_fmu.plots.soil import Foot
 from PIL import Image
 
 FEUP = pounding_fmu.example_scene
@@ -63,6 +64,14 @@ def linked():
     return {**yields(), "link": links}
 
 
+def on_soil():
+    """The left one sways and rocks and yields, the right one rocks; the upper left floor meets columns of the right one."""
+    soil = {"mass": 2.0, "inertia": 0.3, "rocking": {"stiffness": 4e3, "dashpot": 8.0}}
+    left = building([0.5, 0.5], yield_force=[30.0, 40.0], foundation={**soil, "sway": {"stiffness": 8e3}})
+    contacts = [{"left_floor": 1, "right_floor": 1, **LAW}, {"left_floor": 2, "right_storey": 2, **LAW}]
+    return scene_of(left, building([0.5, 0.8], foundation=soil), contact=contacts)
+
+
 def told(scene):
     return Layout(read_scene(scene))
 
@@ -91,7 +100,7 @@ def test_contacts_by_heights():
     assert [contact.gap for contact in scene.contacts] == [0.004] * 3
 
 
-@pytest.mark.parametrize("make", [facing, walls])
+@pytest.mark.parametrize("make", [facing, walls, on_soil])
 def test_edges_overlap_by_the_penetration(make):
     scene = make()
     run = Run(pounding_fmu.simulate(scene, rows_per_impact=4), set())
@@ -105,9 +114,9 @@ def test_edges_overlap_by_the_penetration(make):
 def test_columns_are_drawn_as_they_bend():
     contact = told(facing()).contacts[1]
     position = contact.surfaces["left"]["position"]
-    shares = {(side, floor): weight for side, floor, weight in contact.row}
+    shares = {(side, name): weight for side, name, weight in contact.row}
     assert position == pytest.approx(0.15 / 0.4)
-    assert [shares["left", floor] for floor in (2, 1)] == pytest.approx([clamped(position), 1.0 - clamped(position)])
+    assert [shares["left", f"displacement[{floor}]"] for floor in (2, 1)] == pytest.approx([clamped(position), 1.0 - clamped(position)])
 
 
 def test_one_building_between_walls():
@@ -170,6 +179,51 @@ def test_loops_are_those_of_the_storeys_that_yield():
         assert np.array_equal(shear, runs.run["left.storey_shear[1]"])
         assert runs.run["left.ductility[1]"][-1] > 1
         assert f"{runs.run['left.ductility[1]'][-1]:.1f} ({runs.alone['left.ductility[1]'][-1]:.1f})" in axes.get_title(loc="left")
+
+
+def test_drifts_on_soil_are_those_that_strain():
+    """At every row at most the engine's peak, and that peak at some row, to what a step of 1 ms misses; the lean is larger."""
+    runs = runs_of(on_soil())
+    for side, count in runs.scene.floors.items():
+        for storey in range(1, count + 1):
+            drift = np.abs(runs.scene.drift(runs.run, side, storey))
+            peak = pounding_fmu.simulate(on_soil(), outputs=[f"{side}.peak_drift[{storey}]"])[f"{side}.peak_drift[{storey}]"][-1]
+            assert peak * (1 - 2e-3) < drift.max() <= peak * (1 + 1e-9)
+
+
+def test_foundations_are_drawn_with_their_soil_and_move_with_it():
+    """A lean of so many pixels upright is a slope of as many across: slabs stay at a right angle to it."""
+    scene = told(on_soil())
+    assert scene.foundations["left"]["sway"] == ["spring"] and scene.foundations["right"]["sway"] == []
+    assert scene.foundations["right"]["rocking"] == ["spring", "dashpot"] and told(yields()).foundations == {}
+    figure = Figure(figsize=(3.0, 6.0), dpi=100)
+    axes = figure.subplots()
+    elevation = Elevation(axes, scene, 100.0)
+    axes.set(xlim=(-150.0, 150.0), ylim=(-0.5, 1.5))
+    left, right = (elevation.foundations[side] for side in ("left", "right"))
+    assert right.device is None and len(right.posts) == 4 == len(left.posts)
+    before, post = left.device.get_xdata(), left.posts[0].get_xdata()
+    lean = np.array([500.0 * 0.02, 1000.0 * 0.02])
+    elevation.place({"left": 3.0 + lean, "right": np.zeros(2)}, {"left": Foot(3.0, 0.02)})
+    figure.draw_without_rendering()
+    after = left.device.get_xdata()
+    assert np.nanmin(after) == np.nanmin(before) and np.nanmax(after) == pytest.approx(np.nanmax(before) + 3.0)
+    # Its lower end stays in the pit, its upper one goes with the block.
+    assert left.posts[0].get_xdata()[0] == post[0] and np.nanmin(left.posts[0].get_ydata()) == pytest.approx(left.bottom)
+    columns = [axes.transData.transform(column.get_xy()) for column in elevation.buildings["left"].columns]
+    for slab in [*elevation.buildings["left"].slabs, left.block]:
+        corners = axes.transData.transform(slab.get_xy())
+        along = corners[1] - corners[0]
+        for column in columns:
+            up = column[len(column) // 2 - 2] - column[0]
+            assert along @ up == pytest.approx(0.0, abs=1e-6 * np.hypot(*along) * np.hypot(*up))
+        assert along[1] < -1.0
+    # What they stand on is the tilted block.
+    for column, share in zip(columns, [0.085, 0.915]):
+        corners = axes.transData.transform(left.block.get_xy())
+        assert column[0][1] == pytest.approx(corners[3][1] + share * (corners[2] - corners[3])[1], abs=0.5)
+    slab = elevation.buildings["right"].slabs[0].get_xy()
+    assert slab[0][1] == slab[1][1]
 
 
 def test_links_of_a_scene():
@@ -247,7 +301,7 @@ def test_rigid_contacts_are_drawn_by_impulses():
     assert np.array_equal(tops, runs.run.impacts["impulse"])
 
 
-@pytest.mark.parametrize("make", [facing, walls, rigid, yields, linked])
+@pytest.mark.parametrize("make", [facing, walls, rigid, yields, linked, on_soil])
 def test_nothing_runs_off_a_picture(make):
     runs = runs_of(make())
     for name in PICTURES:

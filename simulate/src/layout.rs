@@ -1,8 +1,10 @@
-//! What stands where: the floors of both buildings with their levels, what meets at each contact, what each link joins.
+//! What stands where: the floors of both buildings with their levels, their foundations, what meets at each contact, what
+//! each link joins.
 //!
 //! Pictures are drawn from it: what faces what is worked out in one place, the scene.
 
-use pounding::scene::{Building, ContactPair, Face, Link, Place, Scene, Share, Side};
+use pounding::scene::{Building, ContactPair, Face, Link, Place, Scene, Share, Side, Soil};
+use pounding::structure::period_ratio;
 use serde::Serialize;
 
 /// As `--layout` writes it, and in the data of the page.
@@ -21,6 +23,17 @@ struct Standing {
     floors: usize,
     /// m, from the ground floor up, where the scene has heights.
     levels: Option<Vec<f64>>,
+    /// Where it stands on soil.
+    foundation: Option<Soils>,
+}
+
+/// What the soil is made of under a foundation, side by side, for each way in which the foundation moves.
+#[derive(Serialize)]
+struct Soils {
+    /// The first period on it over that on a fixed base.
+    period_ratio: f64,
+    sway: Vec<Part>,
+    rocking: Vec<Part>,
 }
 
 #[derive(Serialize)]
@@ -29,9 +42,9 @@ struct Contact {
     meeting: String,
     left: Surface,
     right: Surface,
-    /// Side and number of the floors that take part, and how much a displacement of each adds to the penetration:
-    /// positive on the left of the gap, negative on its right.
-    row: Vec<(&'static str, usize, f64)>,
+    /// Side and name of the variables that take part, after the dot, and how much a displacement or rotation of each adds
+    /// to the penetration.
+    row: Vec<(&'static str, String, f64)>,
     /// m
     gap: f64,
     law: &'static str,
@@ -42,7 +55,7 @@ struct Contact {
 struct Device {
     /// What it is between, in words.
     meeting: String,
-    /// Its ends: floors, or the ground as a wall.
+    /// Its ends: floors, of which 0 is the foundation, or the ground as a wall.
     left: Surface,
     right: Surface,
     /// What it is made of, side by side.
@@ -80,7 +93,21 @@ impl Layout<'_> {
 fn standing(building: &Building) -> Standing {
     let floors = building.mass.len();
     let levels = building.heights.as_ref().map(|heights| (0..=floors).map(|floor| heights.level(floor)).collect());
-    Standing { floors, levels }
+    let soils = building.foundation.as_ref().map(|foundation| Soils {
+        period_ratio: period_ratio(building),
+        sway: parts(foundation.sway),
+        rocking: parts(foundation.rocking),
+    });
+    Standing { floors, levels, foundation: soils }
+}
+
+fn parts(soil: Option<Soil>) -> Vec<Part> {
+    soil.map_or(Vec::new(), |soil| side_by_side([(Part::Spring, soil.stiffness), (Part::Dashpot, soil.dashpot)]))
+}
+
+/// Those parts that have any strength.
+fn side_by_side(parts: [(Part, f64); 2]) -> Vec<Part> {
+    parts.into_iter().filter(|(_, strength)| *strength > 0.0).map(|(part, _)| part).collect()
 }
 
 fn contact(scene: &Scene, pair: &ContactPair) -> Contact {
@@ -88,20 +115,23 @@ fn contact(scene: &Scene, pair: &ContactPair) -> Contact {
         meeting: pair.meeting(scene),
         left: surface(pair.left),
         right: surface(pair.right),
-        row: pair.row(scene).filter_map(floor_of).collect(),
+        row: pair.row(scene).map(moves).collect(),
         gap: pair.gap,
         law: pair.law.kind.info().name,
     }
 }
 
-/// The part of a floor, counted from 1, in the row of a contact; 0 is the foundation. What leans with a foundation is left out.
-fn floor_of(share: Share) -> Option<(&'static str, usize, f64)> {
-    let floor = match share.place {
-        Place::Floor(floor) => floor + 1,
-        Place::Foundation => 0,
-        Place::Rotation => return None,
-    };
-    Some((share.side.name(), floor, share.weight))
+fn moves(share: Share) -> (&'static str, String, f64) {
+    (share.side.name(), variable_of(share.place), share.weight)
+}
+
+/// The name of the variable that says how far a place of a building has moved, after the building's own.
+pub(crate) fn variable_of(place: Place) -> String {
+    match place {
+        Place::Floor(floor) => format!("displacement[{}]", floor + 1),
+        Place::Foundation => "foundation.displacement".into(),
+        Place::Rotation => "foundation.rotation".into(),
+    }
 }
 
 fn surface(face: Face) -> Surface {
@@ -119,11 +149,10 @@ fn device(scene: &Scene, link: &Link) -> Device {
         Some(Place::Foundation | Place::Rotation) => Surface::Floor { side: side.name(), floor: 0 },
     };
     let spring = if link.slip.is_some() { Part::Friction } else { Part::Spring };
-    let parts = [(spring, link.stiffness), (Part::Dashpot, link.dashpot)];
     Device {
         meeting: link.meeting(scene),
         left: end(Side::Left, link.left),
         right: end(Side::Right, link.right),
-        parts: parts.into_iter().filter(|(_, strength)| *strength > 0.0).map(|(part, _)| part).collect(),
+        parts: side_by_side([(spring, link.stiffness), (Part::Dashpot, link.dashpot)]),
     }
 }

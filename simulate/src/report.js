@@ -36,12 +36,14 @@ const DASHES = {
 };
 
 for (const column of run.columns) {
-  const [, whole, index, part, storey] = column.name.match(/^(\w+)(?:\[(\d+)\])?(?:\.(\w+)(?:\[(\d+)\])?)?$/);
+  const known = /^(\w+)(?:\[(\d+)\])?(?:\.(foundation\.)?(\w+)(?:\[(\d+)\])?)?$/;
+  const [, whole, index, foundation, part, storey] = column.name.match(known);
   column.of = whole;
   column.index = Number(storey || index || 0);
   column.quantity = whole === "ground" ? "ground acceleration" : whole === "energy" ? "energy" : part || whole;
   if (column.name === "energy.residual") column.quantity = "energy residual";
   if (whole === "contact") column.quantity = { force: "contact force" }[part] || part.replaceAll("_", " ");
+  else if (foundation) column.quantity = `foundation ${part.replaceAll("_", " ")}`;
   else if (whole === "link") column.quantity = `link ${part.replaceAll("_", " ")}`;
   else if (part && whole !== "ground" && whole !== "energy") column.quantity = part.replaceAll("_", " ");
   column.rows = column.steps && rowsOf(column.steps);
@@ -242,11 +244,12 @@ function usual() {
   const facing = run.contacts.length <= 3 ? run.contacts : [run.contacts.at(-1)];
   const largest = (quantity) =>
     [...(groups.get(quantity) ?? [])].sort((a, b) => b.largest - a.largest).slice(0, COLOURS.others.length);
-  const others = ["contact force", "link force", "link displacement"].flatMap(largest);
+  const ofOthers = ["contact force", "foundation displacement", "foundation rotation", "link force", "link displacement"];
+  const others = ofOthers.flatMap(largest);
   const isShown = (c) =>
-    c.of in top
+    c.of in top && !c.quantity.startsWith("foundation")
       ? ["displacement", "acceleration"].includes(c.quantity) &&
-        (c.index === top[c.of] || facing.some(({ row }) => row.some(([side, floor]) => side === c.of && floor === c.index)))
+        (c.index === top[c.of] || facing.some(({ row }) => row.some(([side, name]) => side === c.of && name === `displacement[${c.index}]`)))
       : others.includes(c);
   choose(run.columns.filter(isShown), true);
 }
@@ -364,6 +367,21 @@ function peakTable() {
   element("peak-shears").textContent = shears.length > 0 ? `base shear: ${shears.join(", ")}` : "";
 }
 
+// The largest of each foundation, and by how much the soil slows its building.
+function foundationTable() {
+  const sides = ["left", "right"].filter((side) => run[side].foundation);
+  const quantities = ["displacement", "rotation", "force", "moment"].map((what) => `foundation peak ${what}`);
+  const known = quantities.map((quantity) => groups.get(quantity)).filter(Boolean);
+  const headings = known.map(([{ quantity, unit }]) => withUnit(quantity.replace("foundation ", ""), unit));
+  const rows = sides.map((side) => {
+    const own = known.map((columns) => columns.find((column) => column.of === side));
+    const cells = own.map((column) => (column ? scaled(column.values.at(-1), column.unit) : ""));
+    return [side, run[side].foundation.period_ratio, ...cells];
+  });
+  element("foundations").hidden = sides.length === 0;
+  tableOf(element("foundation-table"), ["foundation", "first period / on a fixed base", ...headings], rows);
+}
+
 function sorted() {
   const { by, down } = sorting;
   const value = (impact) => impact[by] ?? Infinity;
@@ -427,6 +445,7 @@ listVariables();
 drawBuildings();
 contactTable();
 peakTable();
+foundationTable();
 impactTable();
 usual();
 show(0, run.stop);

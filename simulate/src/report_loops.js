@@ -38,11 +38,15 @@ function valuesAt(times, column) {
 
 const timesOf = (column) => column.rows?.map((row) => run.times[row]) ?? run.times;
 
+// What strains the columns of a storey: without the part that leans with the foundation.
 function driftOf(shear) {
+  const { of, index } = shear;
   const times = timesOf(shear);
-  const floors = [shear.index, shear.index - 1].map((floor) => columnOf("displacement", shear.of, floor));
-  const [above, below] = floors.map((column) => (column ? valuesAt(times, column) : times.map(() => 0)));
-  return above.map((value, at) => value - below[at]);
+  const below = index > 1 ? columnOf("displacement", of, index - 1) : columnOf("foundation displacement", of, 0);
+  const columns = [columnOf("displacement", of, index), below, columnOf("foundation rotation", of, 0)];
+  const [above, under, rotation] = columns.map((column) => (column ? valuesAt(times, column) : times.map(() => 0)));
+  const height = columns[2] ? run[of].levels[index] - run[of].levels[index - 1] : 0;
+  return above.map((value, at) => value - under[at] - height * rotation[at]);
 }
 
 function drawn(parent, tag, attributes, text = "") {

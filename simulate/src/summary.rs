@@ -1,10 +1,11 @@
 //! What happened in a run, for a person to check by eye.
 
+use crate::layout::variable_of;
 use crate::outcome::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
 use pounding::record::Record;
-use pounding::scene::{Building, Heights, Scene, Side};
+use pounding::scene::{Building, Heights, Places, Scene, Side};
 use pounding::variables::{Parameter, Settings};
 use pounding::warnings::six_decimals;
 use std::fmt::Write;
@@ -54,7 +55,7 @@ impl Problem<'_> {
 pub fn text(outcome: &Outcome, problem: Option<Problem<'_>>, stop_reason: &str) -> String {
     let run = Run(outcome, problem.map(|problem| problem.scene));
     let mut text = overview(&run, problem, stop_reason);
-    let buildings = [run.floors(), run.buildings(), run.yielding()];
+    let buildings = [run.floors(), run.buildings(), run.foundations(), run.yielding()];
     let rest = [run.contacts(), run.struck_columns(), run.links(), run.energy()];
     for table in buildings.into_iter().chain(rest).flatten() {
         text.push('\n');
@@ -146,9 +147,11 @@ impl Run<'_> {
     /// The storey of a building that has come nearest to the drift of its collapse, counted from 1.
     fn fallen(&self, side: &str) -> Option<usize> {
         let building = self.building(side)?;
-        let levels: Vec<f64> = self.array(&format!("{side}.displacement")).map(|seen| seen.last).collect();
+        let places = Places::of(building);
+        let moved = |place| self.seen(&format!("{side}.{}", variable_of(place))).map(|seen| seen.last);
         let share = |storey: usize| {
-            let drift = levels.get(storey)? - storey.checked_sub(1).map_or(0.0, |below| levels[below]);
+            let parts = places.drift(storey).map(|(place, weight)| Some(weight * moved(place)?));
+            let drift: f64 = parts.sum::<Option<f64>>()?;
             Some((storey + 1, drift.abs() / building.collapse_drift(storey)?))
         };
         let shares = (0..building.mass.len()).filter_map(share);
@@ -215,6 +218,32 @@ impl Run<'_> {
             if let Some(shear) = shear(side) {
                 table.row([side.into(), scale.cell(shear)]);
             }
+        }
+        table.unless_empty()
+    }
+
+    /// Foundations: how much the soil slows their buildings, how far they have gone and turned, and what the soil has carried.
+    fn foundations(&self) -> Option<Table> {
+        let last = |side: &str, quantity: &str| self.seen(&format!("{side}.foundation.{quantity}")).map(|s| s.last);
+        let scale = |quantity: &str, unit: &str| Scale::of(unit, SIDES.iter().filter_map(|side| last(side, quantity)));
+        let (force, moment) = (scale("peak_force", "N"), scale("peak_moment", "N m"));
+        let milliradians = Scale { unit: "mrad".into(), size: 1e-3 };
+        let peaks = [
+            ("peak displacement", "peak_displacement", Scale { unit: "m".into(), size: 1.0 }),
+            ("peak rotation", "peak_rotation", milliradians),
+            ("peak force", "peak_force", force),
+            ("peak moment", "peak_moment", moment),
+        ];
+        // A way in which no foundation moves has no column.
+        let known: Vec<_> = peaks.iter().filter(|(_, name, _)| SIDES.iter().any(|s| last(s, name).is_some())).collect();
+        let mut columns = vec![("foundation", ""), ("period ratio", "")];
+        columns.extend(known.iter().map(|(heading, _, scale)| (*heading, scale.unit.as_str())));
+        let mut table = Table::new(&columns);
+        for side in SIDES {
+            let Some(ratio) = last(side, "period_ratio") else { continue };
+            let mut row = vec![side.to_owned(), digits(ratio)];
+            row.extend(known.iter().map(|(_, name, scale)| last(side, name).map_or(String::new(), |v| scale.cell(v))));
+            table.row(row);
         }
         table.unless_empty()
     }
@@ -353,12 +382,13 @@ impl Run<'_> {
     }
 
     fn energy(&self) -> Option<Table> {
-        let names = ["input", "external", "kinetic", "strain", "gravity", "viscous", "hysteretic", "impact"];
+        let names = ["input", "external", "kinetic", "strain", "gravity", "viscous", "soil", "hysteretic", "impact"];
         let energy = |name: &str| self.seen(&format!("energy.{name}")).map(|seen| seen.last);
         let scale = Scale::of("J", names.into_iter().filter_map(energy));
         let mut table = Table::new(&[("energy at the end", ""), ("", &scale.unit)]);
         for name in names {
             if let Some(energy) = energy(name) {
+                let name = if name == "soil" { "soil, a part of viscous" } else { name };
                 table.row([name.into(), scale.cell(energy)]);
             }
         }

@@ -48,7 +48,14 @@ fn peak(record: &Record, scaling: Scaling) -> String {
 
 fn building(outcome: &Outcome, side: &str) -> String {
     let masses: Vec<f64> = array(outcome, side, "mass").map(|seen| seen.last).collect();
-    format!("{}, {} in all, {}", count(masses.len(), "floor"), mass(masses.iter().sum()), periods(outcome, side))
+    let soil = on_soil(outcome, side).unwrap_or_default();
+    format!("{}, {} in all, {}{soil}", count(masses.len(), "floor"), mass(masses.iter().sum()), periods(outcome, side))
+}
+
+/// How much slower a building swings on its soil; `None` where it stands on a fixed base.
+fn on_soil(outcome: &Outcome, side: &str) -> Option<String> {
+    let ratio = outcome.seen.get(&format!("{side}.foundation.period_ratio"))?.last;
+    Some(format!(" on a fixed base; on its soil the first period is {} times that", digits(ratio)))
 }
 
 /// The first periods and frequencies of a building, or of both with their links.

@@ -3,8 +3,8 @@
 use super::place::Place;
 use super::side::Side;
 
-/// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations. A scene's file has something
-/// in each; set to 0 later, as by a parameter of the FMU, there is no device.
+/// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations. A scene's file has
+/// something in each; set to 0 later, as by a parameter of the FMU, there is no device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Where it is held on the left building; `None`: on the ground.

@@ -39,6 +39,18 @@ left_floor = 1
 right_floor = 1
 dashpot = 600
 """
+# Soil under both frames: the left one sways and rocks, the right one rocks.
+SOIL = """
+[left.foundation]
+mass = 120
+inertia = 3000
+sway = { stiffness = 400e3, dashpot = 5e3 }
+rocking = { stiffness = 15e6, dashpot = 80e3 }
+[right.foundation]
+mass = 90
+inertia = 2000
+rocking = { stiffness = 12e6 }
+"""
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
 
 
@@ -52,7 +64,7 @@ def main():
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
         pages = [(has_levels, "neighbours", ""), (stands_alone, "isolated", ""), (yields, "yielding", "")]
-        for look, name, more in [*pages, (is_linked, "yielding", LINKS)]:
+        for look, name, more in [*pages, (is_linked, "yielding", LINKS), (stands_on_soil, "yielding", SOIL)]:
             page.set_viewport_size({"width": 1300, "height": 900})
             html, _, impacts = make_report(name, more)
             page.goto(html.as_uri())
@@ -299,6 +311,29 @@ def is_linked(page, impacts):
     legend = page.locator(".chart", has_text="link force").locator(".u-legend .u-label").all_inner_texts()
     assert legend[1:] == ["link 1", "link 2", "link 3"], legend
     page.screenshot(path=FOLDER / "linked.png", full_page=True)
+
+
+def stands_on_soil(page, impacts):
+    """A row and curves for each foundation in the ways in which it moves; the rotation is the overturning moment over the
+    stiffness where there is no dashpot. A loop of a storey that yields has the drift that strains it, up to its peak."""
+    headings, rows = table(page, "foundation")
+    assert [row[0] for row in rows] == ["left", "right"]
+    number = lambda row, heading: float(row[headings.index(heading)])  # noqa: E731
+    assert all(1.05 < number(row, "first period / on a fixed base") < 2.0 for row in rows), rows
+    assert rows[1][headings.index("peak displacement [mm]")] == "" != rows[0][headings.index("peak displacement [mm]")]
+    of_right = [number(rows[1], heading) for heading in ("peak moment [kN\u00a0m]", "peak rotation [mrad]")]
+    assert abs(of_right[0] / of_right[1] / 12e3 - 1.0) < 1e-4, of_right
+    charts = page.locator(".chart h3").all_inner_texts()
+    assert {"foundation displacement [mm]", "foundation rotation [mrad]"} <= set(charts) and len(charts) == 5, charts
+    legend = page.locator(".chart", has_text="foundation rotation").locator(".u-legend .u-label").all_inner_texts()
+    assert legend[1:] == ["left", "right"], legend
+    assert drawn(page)["ink"] > 300, drawn(page)
+    _, drifts = table(page, "peak")
+    peak = {f"{side} storey {row[0]}": float(row[at]) for row in drifts for side, at in (("left", 2), ("right", 7)) if row[at]}
+    for figure in page.locator("#loops figure").all():
+        storey = figure.locator("figcaption").inner_text().split(":")[0]
+        assert abs(float(figure.locator("text").all_text_contents()[2]) / peak[storey] - 1.0) < 1e-2, (storey, peak)
+    page.screenshot(path=FOLDER / "soil.png", full_page=True)
 
 
 if __name__ == "__main__":

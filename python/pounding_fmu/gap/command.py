@@ -29,6 +29,8 @@ DDC       root of a2 + b2 - 2 rho a b, with the correlation rho of the first mod
 LINKED = """\
 links     are in all runs; a and b are displacements with them, and rules for buildings that move without them have no value"""
 
+SOIL = """\
+soil      is in all runs; a and b are displacements on it, and DDC, which is of periods on a fixed base, has no value"""
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Does what the arguments say and returns the exit code."""
@@ -52,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     widest = max(row.gap for row in rows)
     costs = search.costs(widest) if widest > 0 else []
     progress.end(quietly=True)
-    parts = [tell(rows, options.force), RULES, *([LINKED] * search.is_linked), *tell_collapses(rows)]
+    parts = [tell(rows, options.force), RULES, *([LINKED] * search.is_linked), *([SOIL] * search.on_soil), *tell_collapses(rows)]
     print(*parts, *(["", tell_costs(costs, len(rows))] * bool(costs)), sep="\n")
     if options.output:
         write(rows, options.output)

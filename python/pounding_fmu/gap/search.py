@@ -58,7 +58,7 @@ class RequiredGap:
     else None"""
     ddc: float | None
     """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]; None
-    where there are links, which change these modes"""
+    where there are links or soil, which change these modes"""
     force_gap: float | None = None
     """from which on no gap has a larger force than the limit, to 1e-6 m on the safe side; None without a limit"""
     hardest_force: float | None = None
@@ -119,7 +119,9 @@ class Search:
         self.motions = _motions(read, records, None if pga is None else [float(value) for value in pga])
         self.names = list(variables_of(read))
         self.contacts = range(1, len(self.layout["contacts"]) + 1)
-        self.peaks = [name for name in self.names if ".peak_displacement[" in name]
+        self.on_soil = any(self.layout[side]["foundation"] for side in ("left", "right"))
+        of_row = (".peak_displacement[", ".foundation.peak_displacement", ".foundation.peak_rotation")
+        self.peaks = [name for name in self.names if any(part in name for part in of_row)]
         self.falls = [name for name in self.names if name.endswith(".collapsed")]
         self.drifts = {
             side: names
@@ -235,8 +237,9 @@ class Search:
         pairs = []
         for contact in self.layout["contacts"]:
             moves = {"left": 0.0, "right": 0.0}
-            for side, floor, weight in contact["row"]:
-                moves[side] += abs(weight) * peaks[f"{side}.peak_displacement[{floor}]"]
+            for side, name, weight in contact["row"]:
+                *of, quantity = name.split(".")
+                moves[side] += abs(weight) * peaks[".".join([side, *of, f"peak_{quantity}"])]
             pairs.append((moves["left"], moves["right"]))
         left, right = self.modes
         rho = correlation(left, right) if left and right else 0.0
@@ -246,7 +249,7 @@ class Search:
             "absolute_sum": max(a + b for a, b in pairs),
             "srss": srss,
             "eurocode": EUROCODE * srss if srss is not None and kinds == {"floor"} else None,
-            "ddc": None if self.is_linked else max(difference(a, b, rho) for a, b in pairs),
+            "ddc": None if self.is_linked or self.on_soil else max(difference(a, b, rho) for a, b in pairs),
         }
 
     def costs(self, widest: float) -> list[Cost]:

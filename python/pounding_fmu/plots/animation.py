@@ -19,7 +19,8 @@ from PIL import Image
 
 from .._terminal import Progress
 from .elevation import Elevation, inner_edges, prepare_height
-from .runs import Runs
+from .runs import Run, Runs
+from .soil import Foot
 from .style import BLACK, BUILDINGS, LOOK, YELLOW
 
 if TYPE_CHECKING:
@@ -101,6 +102,13 @@ def palette_of(pixels: NDArray[Any]) -> Image.Image:
     return Image.fromarray(np.concatenate([pixels, band])).quantize(COLOURS, dither=Image.Dither.NONE)
 
 
+def feet_of(run: Run, side: str) -> tuple[NDArray[Any], NDArray[Any]]:
+    """How far a foundation is displaced, mm, and turned over time; 0 in a way in which it does not move."""
+    sways, rocks = (f"{side}.foundation.{way}" for way in ("displacement", "rotation"))
+    still = np.zeros(len(run.time))
+    return 1e3 * run[sways] if sways in run else still, run[rocks] if rocks in run else still
+
+
 class Stage:
     """The buildings, and their tops over time, at one instant after another."""
 
@@ -112,6 +120,8 @@ class Stage:
             side: 1e3 * np.array([run[f"{side}.displacement[{i}]"] for i in range(1, count + 1)])
             for side, count in scene.floors.items()
         }
+        # mm and rad.
+        self.feet = {side: feet_of(run, side) for side in scene.foundations}
         reach = max(np.abs(rows[:, self.seen]).max() for rows in self.motion.values())
         self.figure = Figure(figsize=(5.2, 4.6), dpi=100)
         self.canvas: Any = FigureCanvasAgg(self.figure)
@@ -135,8 +145,9 @@ class Stage:
         left, right = self.elevation.ends()
         xlim = left - 1.1 * reach, right + 1.1 * reach
         above = 0.14 + 0.3 / max(scene.floors.values())
-        height = scene.top - scene.bottom
-        axes.set(xlim=xlim, ylim=(scene.bottom - 0.08 * height, scene.top + above * height))
+        bottom = self.elevation.bottom
+        height = scene.top - bottom
+        axes.set(xlim=xlim, ylim=(bottom - 0.08 * height, scene.top + above * height))
         axes.set(xlabel="mm (displacements and gap to scale; widths not)")
         axes.xaxis.set_major_locator(MaxNLocator(6))
         axes.grid(False)
@@ -154,7 +165,8 @@ class Stage:
     def frame(self, time: float, step: float) -> NDArray[Any]:
         """The pixels of one frame."""
         row = min(int(np.searchsorted(self.run.time, time)), len(self.run.time) - 1)
-        self.elevation.place({side: rows[:, row] for side, rows in self.motion.items()})
+        feet = {side: Foot(float(sways[row]), float(rocks[row])) for side, (sways, rocks) in self.feet.items()}
+        self.elevation.place({side: rows[:, row] for side, rows in self.motion.items()}, feet)
         self.show_impacts(time, step, row)
         self.clock.set_text(f"{time:6.2f} s")
         self.cursor.set_xdata([time, time])

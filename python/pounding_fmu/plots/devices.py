@@ -27,38 +27,21 @@ Strokes = list[list[tuple[float, float]]]  # along and across
 STRAIGHT: Strokes = [[(0.0, 0.0), (1.0, 0.0)]]  # of ends that have passed each other
 
 
-class Device(Line2D):
-    """A link in a drawing: `ends` in mm and levels, at rest; `hung` says how many parts hang there already."""
+class Line(Line2D):
+    """What is drawn of lines whose shape depends on the limits and the size of the axes."""
 
-    def __init__(self, axes: Axes, link: Link, ends: list[NDArray[Any]], storey: float, hung: int) -> None:
+    def __init__(self, axes: Axes, storey: float) -> None:
         super().__init__([], [], color=BLACK, linewidth=1.2, zorder=4, solid_joinstyle="miter")
-        self.link, self.ends, self.storey, self.hung = link, ends, storey, hung
-        self.rest = float(ends[1][0] - ends[0][0])
+        self.storey = storey
         axes.add_line(self)
-        self.place((0.0, 0.0))
-
-    def place(self, moved: tuple[float, float]) -> None:
-        """Moves its ends across, mm."""
-        self.moved = moved
-        self.shape()
 
     def draw(self, renderer: Any) -> None:
-        """Once the axes have their limits and their size: what is across depends on both."""
+        """Once the axes have both: what is across depends on them."""
         self.shape()
         super().draw(renderer)
 
     def shape(self) -> None:
-        left, right = (end + [shift, 0.0] for end, shift in zip(self.ends, self.moved))
-        pieces = [np.array([end, end - [0.0, self.depth(len(self.link.parts) - 1)]]) for end in (left, right)]
-        length, across = float(right[0] - left[0]), self.across(right - left)
-        # What keeps its length, cups and blocks, becomes shorter only where there is no room for it.
-        fixed = min(self.rest, length / SHORTEST)
-        for row, part in enumerate(self.link.parts):
-            for stroke in DRAWN[part](length, fixed) if length > 0.0 else STRAIGHT:
-                along, aside = np.array(stroke).T[:, :, None]
-                share = along / (length if length > 0.0 else 1.0)
-                pieces.append(left + share * (right - left) + aside * across - [0.0, self.depth(row)])
-        self.set_data(*np.concatenate(list(broken(pieces))).T)
+        raise NotImplementedError
 
     def across(self, along: NDArray[Any]) -> NDArray[Any]:
         """Half the height of a part, in mm and levels: in the picture at a right angle to a line."""
@@ -69,9 +52,47 @@ class Device(Line2D):
         half: NDArray[Any] = self.storey * HALF * scale[1] * np.array([-y, x]) / np.hypot(x, y) / scale
         return half
 
+
+class Device(Line):
+    """A link in a drawing: `ends` in mm and levels, at rest; `hung` says how many parts hang there already."""
+
+    def __init__(self, axes: Axes, link: Link, ends: list[NDArray[Any]], storey: float, hung: int) -> None:
+        super().__init__(axes, storey)
+        self.link, self.ends, self.hung = link, ends, hung
+        self.rest = float(ends[1][0] - ends[0][0])
+        self.place((0.0, 0.0))
+
+    def place(self, moved: tuple[float, float]) -> None:
+        """Moves its ends across, mm."""
+        self.moved = moved
+        self.shape()
+
+    def shape(self) -> None:
+        left, right = (end + [shift, 0.0] for end, shift in zip(self.ends, self.moved))
+        pieces = [np.array([end, end - [0.0, self.depth(len(self.link.parts) - 1)]]) for end in (left, right)]
+        length, across = float(right[0] - left[0]), self.across(right - left)
+        for row, part in enumerate(self.link.parts):
+            below = [0.0, self.depth(row)]
+            pieces += drawn(part, (left - below, right - below), across, length, self.rest)
+        self.set_data(*np.concatenate(list(broken(pieces))).T)
+
     def depth(self, row: int) -> float:
         """Of a part below the level of its slab."""
         return self.storey * (BELOW + APART * (self.hung + row))
+
+
+def drawn(
+    part: str, ends: tuple[NDArray[Any], NDArray[Any]], across: NDArray[Any], length: float, rest: float
+) -> list[NDArray[Any]]:
+    """A part between two points that are `length` apart, `rest` when nothing has moved."""
+    # What keeps its length, cups and blocks, becomes shorter only where there is no room for it.
+    fixed = min(rest, length / SHORTEST)
+    pieces = []
+    for stroke in DRAWN[part](length, fixed) if length > 0.0 else STRAIGHT:
+        along, aside = np.array(stroke).T[:, :, None]
+        share = along / (length if length > 0.0 else 1.0)
+        pieces.append(ends[0] + share * (ends[1] - ends[0]) + aside * across)
+    return pieces
 
 
 def broken(pieces: list[NDArray[Any]]) -> Iterator[NDArray[Any]]:

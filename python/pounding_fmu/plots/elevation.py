@@ -1,5 +1,5 @@
-"""Buildings, links, walls and ground of a scene as they stand: upright to the scale of their levels, across in mm, with widths
-that fit. The animation moves them."""
+"""Buildings, foundations, links, walls and ground of a scene as they stand: upright to the scale of their levels, across in mm,
+with widths that fit. The animation moves them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import Rectangle
 
 from .devices import Device, stacked
 from .layout import SIDES, Contact, Layout, Link, clamped, slabs_of
+from .soil import STILL, Column, Foot, Foundation, Slab
 from .style import BUILDINGS, GREY, SOLID
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 USUAL_GAP = 50.0
 # Shares of the width of a building: from the edge of a slab to its link, and to what holds the link on the ground.
 INSET, TO_GROUND = 0.2, 0.3
+STOREYS_ON_SOIL = 0.12, 0.25  # of the whole height, least and most: for foundations to be seen, and not to be towers
 
 
 class Elevation:
@@ -33,30 +35,49 @@ class Elevation:
         self.buildings = {side: Building(axes, scene, side, edges, width) for side, edges in self.inner.items()}
         self.faces = [self.left_face(pair) for pair in scene.contacts]
         storey = float(np.mean([np.mean(np.diff(levels)) for levels in scene.levels.values()]))
-        self.devices = [
+        self.links = [
             Device(axes, link, self.ends_of(link), storey, hung) for link, hung in zip(scene.links, stacked(scene.links))
         ]
+        least, most = (share * (scene.top - scene.bottom) for share in STOREYS_ON_SOIL)
+        on_soil = min(max(storey, least), most)
+        self.foundations = {
+            side: Foundation(axes, scene, side, self.inner[side][0], width, on_soil) for side in scene.foundations
+        }
+        self.bottom = min([scene.bottom, *(foundation.bottom for foundation in self.foundations.values())])
+
+    @property
+    def devices(self) -> list[Device]:
+        """All that joins floors or foundations with each other and with the ground."""
+        sways = [foundation.device for foundation in self.foundations.values()]
+        return [*self.links, *(device for device in sways if device is not None)]
 
     def ends(self) -> tuple[float, float]:
         """mm, from wall to wall or from edge to edge."""
         gaps = [1e3 * pair.gap for pair in self.scene.contacts]
         outer = [*self.faces, *(face + gap for face, gap in zip(self.faces, gaps))]
         right = self.inner["right"].max() + self.width if "right" in self.inner else 0.0
-        return min([-self.width, *outer]), max([right, *outer])
+        held = [float(x) for foundation in self.foundations.values() for x in foundation.ends()]
+        return min([-self.width, *outer, *held]), max([right, *outer, *held])
 
-    def place(self, displacements: Mapping[str, NDArray[Any]]) -> None:
-        """Moves the floors of each building, mm."""
+    def place(self, displacements: Mapping[str, NDArray[Any]], feet: Mapping[str, Foot] | None = None) -> None:
+        """Moves the floors of each building, mm, and its foundation."""
+        at = feet or {}
         for side, building in self.buildings.items():
-            building.place(displacements[side])
-        for device in self.devices:
-            moved = {side: float(displacements[side][floor - 1]) for side, floor in slabs_of(device.link)}
-            device.place((moved.get("left", 0.0), moved.get("right", 0.0)))
+            building.place(displacements[side], at.get(side, STILL))
+        for side, foundation in self.foundations.items():
+            foundation.place(at.get(side, STILL))
+        for link in self.links:
+            moved = {
+                side: float(displacements[side][floor - 1]) if floor else at.get(side, STILL).displacement
+                for side, floor in slabs_of(link.link)
+            }
+            link.place((moved.get("left", 0.0), moved.get("right", 0.0)))
 
     def ends_of(self, link: Link) -> list[NDArray[Any]]:
         """mm and level of the points that a link is between, at rest."""
         inset, ends = INSET * self.width, {}
         for side, floor in slabs_of(link):
-            across = self.inner[side][floor - 1] + (-inset if side == "left" else inset)
+            across = self.inner[side][max(floor, 1) - 1] + (-inset if side == "left" else inset)
             ends[side] = np.array([across, self.scene.levels[side][floor]])
         for side, other, away in (("left", "right", -1), ("right", "left", 1)):
             if side not in ends:
@@ -84,14 +105,16 @@ class Elevation:
                     low = level - device.depth(len(device.link.parts) - 1) - 0.1 * device.storey
                     axes.add_patch(Rectangle((x, low), far, level - low, **SOLID))
         step = self.inner["right"][0] / 2 if "right" in self.inner else xlim[1]
-        levels = [scene.levels[side][0] for side in scene.floors]
+        levels = [
+            self.foundations[side].bottom if side in self.foundations else scene.levels[side][0] for side in scene.floors
+        ]
         axes.plot([xlim[0], step, step, xlim[1]], np.repeat(levels, 4 // len(levels)), color=GREY, linewidth=3)
         for face, pair in zip(self.faces, scene.contacts):
             for side in SIDES:
                 if pair.surfaces[side]["kind"] == "wall":
                     near, far = (face, xlim[0]) if side == "left" else (face + 1e3 * pair.gap, xlim[1])
                     top = pair.height + 0.03 * (scene.top - scene.bottom)
-                    axes.add_patch(Rectangle((near, scene.bottom), far - near, top - scene.bottom, **SOLID))
+                    axes.add_patch(Rectangle((near, self.bottom), far - near, top - self.bottom, **SOLID))
 
 
 class Building:
@@ -105,25 +128,22 @@ class Building:
         # From the inner edge to the left end of a slab. Columns stand a little inside of its ends, unless they are hit.
         self.inner = -width if side == "left" else 0.0
         inset = 0.0 if any(is_hit(pair, side) for pair in scene.contacts) else 0.06 * width
-        self.columns = [self.inner + inset, self.inner + width - inset - self.thickness]
-        self.polygons = [Polygon(np.zeros((1, 2)), facecolor=colour, edgecolor="none") for _ in "12"]
-        self.slabs = [
-            Rectangle((0, level - slab / 2), width, slab, facecolor=colour, edgecolor="none", zorder=3)
-            for level in self.levels[1:]
-        ]
-        for patch in [*self.polygons, *self.slabs]:
-            axes.add_patch(patch)
-        self.place(np.zeros(len(edges)))
+        self.offsets = [self.inner + inset, self.inner + width - inset - self.thickness]
+        asides = [offset + self.thickness / 2 - self.inner - width / 2 for offset in self.offsets]
+        self.columns = [Column(axes, aside, colour) for aside in asides]
+        self.slabs = [Slab(axes, level, (width, slab), colour) for level in self.levels[1:]]
+        self.rise = scene.rise(side) if side in scene.foundations else np.zeros(len(edges))
+        self.place(np.zeros(len(edges)), STILL)
 
-    def place(self, displacements: NDArray[Any]) -> None:
-        """Moves its floors, mm."""
-        at = self.edges + displacements
-        for slab, x in zip(self.slabs, at):
-            slab.set_x(x + self.inner)
-        across, up = bend(np.concatenate([[self.edges[0]], at]), self.levels)
-        for polygon, offset in zip(self.polygons, self.columns):
+    def place(self, displacements: NDArray[Any], foot: Foot) -> None:
+        """Moves its floors, mm, which are tilted as its foundation is."""
+        at, leans = self.edges + displacements, self.rise * foot.rotation
+        for slab, x, lean in zip(self.slabs, at, leans):
+            slab.place(x + self.inner, lean)
+        across, up = bend(np.concatenate([[self.edges[0] + foot.displacement], at]), self.levels, leans)
+        for column, offset in zip(self.columns, self.offsets):
             sides = [across + offset, across[::-1] + offset + self.thickness]
-            polygon.set_xy(np.column_stack([np.concatenate(sides), np.concatenate([up, up[::-1]])]))
+            column.place(np.column_stack([np.concatenate(sides), np.concatenate([up, up[::-1]])]), float(leans[0]))
 
 
 def is_hit(pair: Contact, side: str) -> bool:
@@ -131,11 +151,14 @@ def is_hit(pair: Contact, side: str) -> bool:
     return any(surface["kind"] == "columns" and surface["side"] == side for surface in pair.surfaces.values())
 
 
-def bend(x: NDArray[Any], levels: NDArray[Any], points: int = 13) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Columns from floor to floor."""
+def bend(
+    x: NDArray[Any], levels: NDArray[Any], leans: NDArray[Any], points: int = 13
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Columns from floor to floor; their ends lean by so much a level."""
     s = np.linspace(0.0, 1.0, points)
-    across = np.concatenate([low + (high - low) * clamped(s) for low, high in zip(x, x[1:])])
-    return across, np.concatenate([low + (high - low) * s for low, high in zip(levels, levels[1:])])
+    turned = leans * np.diff(levels)
+    across = [low + (high - low - turn) * clamped(s) + turn * s for low, high, turn in zip(x, x[1:], turned)]
+    return np.concatenate(across), np.concatenate([low + (high - low) * s for low, high in zip(levels, levels[1:])])
 
 
 def inner_edges(scene: Layout) -> dict[str, NDArray[Any]]:

@@ -1,4 +1,5 @@
-"""What stands where in a scene: floors at their levels, what meets at each contact, what links join. The engine says it."""
+"""What stands where in a scene: floors at their levels, foundations on soil, what meets at each contact, what links join. The
+engine says it."""
 
 from __future__ import annotations
 
@@ -33,6 +34,12 @@ class Layout:
             side: np.array(levels[side]) if self.has_levels else np.arange(count + 1.0)
             for side, count in self.floors.items()
         }
+        # What the soil under each foundation is made of.
+        self.foundations: dict[str, dict[str, list[str]]] = {
+            side: soil for side in self.floors if (soil := told[side]["foundation"]) is not None
+        }
+        # m, from floor to floor, of buildings that have heights.
+        self.heights = {side: np.diff(own) for side, own in levels.items() if own is not None}
         self.contacts = [Contact(contact, self) for contact in told["contacts"]]
         self.links = [Link(link) for link in told["links"]]
 
@@ -44,6 +51,21 @@ class Layout:
     def bottom(self) -> float:
         return min(float(levels[0]) for levels in self.levels.values())
 
+    def rise(self, side: str) -> NDArray[Any]:
+        """mm by which each storey of a building leans for a rad, for each level that it is drawn high."""
+        leans: NDArray[Any] = 1e3 * self.heights[side] / np.diff(self.levels[side])
+        return leans
+
+    def drift(self, run: Run, side: str, storey: int) -> NDArray[Any]:
+        """m, what strains the columns of a storey over time: without the part that leans with the foundation."""
+        below = f"{side}.displacement[{storey - 1}]" if storey > 1 else f"{side}.foundation.displacement"
+        drift: NDArray[Any] = run[f"{side}.displacement[{storey}]"]
+        if below in run:
+            drift = drift - run[below]
+        if (rotation := f"{side}.foundation.rotation") in run:
+            drift = drift - self.heights[side][storey - 1] * run[rotation]
+        return drift
+
 
 class Contact:
     """What meets on both sides of a gap, m."""
@@ -51,7 +73,8 @@ class Contact:
     def __init__(self, told: dict[str, Any], scene: Layout) -> None:
         self.gap: float = told["gap"]
         self.law: str = told["law"]
-        self.row: list[tuple[str, int, float]] = told["row"]
+        # Sides, names of variables, and how much of each the surfaces come nearer.
+        self.row: list[tuple[str, str, float]] = told["row"]
         self.surfaces: dict[str, Surface] = {side: told[side] for side in SIDES}
         heights = [height(surface, scene.levels) for surface in self.surfaces.values() if surface["kind"] != "wall"]
         self.height = float(np.mean(heights))
@@ -63,11 +86,11 @@ class Contact:
     def edges(self, run: Run) -> tuple[NDArray[Any], NDArray[Any]]:
         """m, both surfaces over the time of a run: from where the left one is at rest, to the right."""
         left, right = np.zeros_like(run.time), np.full_like(run.time, self.gap)
-        for side, floor, weight in self.row:
-            if weight > 0:
-                left += weight * run[f"{side}.displacement[{floor}]"]
+        for side, name, weight in self.row:
+            if self.surfaces["left"].get("side") == side:
+                left += weight * run[f"{side}.{name}"]
             else:
-                right -= weight * run[f"{side}.displacement[{floor}]"]
+                right -= weight * run[f"{side}.{name}"]
         return left, right
 
     def height_on(self, side: str, levels: Levels) -> float | None:
@@ -87,7 +110,7 @@ class Link:
 
 
 def slabs_of(link: Link) -> list[tuple[str, int]]:
-    """Side and number of the floors that a link joins."""
+    """Side and number of the floors that a link joins; 0 is the foundation."""
     return [(side, surface["floor"]) for side, surface in link.surfaces.items() if surface["kind"] == "floor"]
 
 
@@ -104,6 +127,8 @@ def in_words(left: Surface, right: Surface) -> str:
     """What meets, in few words."""
     if left["kind"] == right["kind"] == "floor":
         is_same = left["floor"] == right["floor"]
+        if is_same and left["floor"] == 0:
+            return "both foundations"
         return f"floor {left['floor']} of both" if is_same else f"{called(left)}, {called(right)}"
     if "wall" in (left["kind"], right["kind"]):
         return f"{called(right)}, wall on its left" if left["kind"] == "wall" else f"{called(left)}, wall on its right"
@@ -113,6 +138,8 @@ def in_words(left: Surface, right: Surface) -> str:
 
 def called(surface: Surface) -> str:
     what = "floor" if surface["kind"] == "floor" else "storey"
+    if surface[what] == 0:
+        return f"{surface['side']} foundation"
     return f"{surface['side']} {what} {surface[what]}"
 
 

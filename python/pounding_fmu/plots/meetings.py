@@ -53,7 +53,7 @@ def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None
 
 
 def words(scene: Layout) -> list[str]:
-    """A line for each contact, the floors that have none, and a line for each link."""
+    """A line for each contact, the floors that have none, a line for each way of a foundation and for each link."""
     lines = []
     for p, pair in enumerate(scene.contacts, 1):
         at = [f" at {surface['position']:.3g}" for surface in pair.surfaces.values() if surface["kind"] == "columns"]
@@ -63,6 +63,9 @@ def words(scene: Layout) -> list[str]:
         alone = [i for i in range(1, count + 1) if {"kind": "floor", "side": side, "floor": i} not in faces]
         if alone:
             lines += ["", f"no contact: {side} floor {', '.join(map(str, alone))}"]
+    for side, soil in scene.foundations.items():
+        ways = [("sways", soil["sway"]), ("rocks", soil["rocking"])]
+        lines += ["", *(f"{side} foundation {way}: {' and '.join(parts)}" for way, parts in ways if parts)]
     links = [f"link {at}   {link.name}: {link.made_of}" for at, link in enumerate(scene.links, 1)]
     return [*lines, "", *links] if links else lines
 
@@ -106,8 +109,8 @@ def stand(
     prepare_height(axes, scene)
     left, right = elevation.ends()
     xlim = left - margin * width, right + margin * width
-    height = scene.top - scene.bottom
-    axes.set(xlim=xlim, ylim=(scene.bottom - 0.06 * height, scene.top + 0.08 * height), title=title)
+    height = scene.top - elevation.bottom
+    axes.set(xlim=xlim, ylim=(elevation.bottom - 0.06 * height, scene.top + 0.08 * height), title=title)
     axes.set_xticks([])
     axes.grid(False)
     elevation.draw_surroundings(axes, xlim)

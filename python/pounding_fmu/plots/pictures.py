@@ -161,10 +161,11 @@ def accelerations(runs: Runs) -> Figure | None:
     hardest = runs.run.hardest()
     if hardest is None:
         return None
-    row = runs.scene.contacts[hardest["contact"] - 1].row
+    row = [part for part in runs.scene.contacts[hardest["contact"] - 1].row if part[1] != "foundation.rotation"]
     figure, panels = over_time(len(row), 3.0, runs.window)
-    for axes, (side, floor, _) in zip(panels, row):
-        name = f"{side}.acceleration[{floor}]"
+    for axes, (side, part, _) in zip(panels, row):
+        name = f"{side}.{part.replace('displacement', 'acceleration')}"
+        what = "Foundation" if part.startswith("foundation") else f"Floor {part[part.index('[') + 1 : -1]}"
         largest = []
         for one, label, line in [
             (runs.run, "pounding", {**BUILDINGS[side], "linestyle": "-", "linewidth": 1.0}),
@@ -176,7 +177,7 @@ def accelerations(runs: Runs) -> Figure | None:
             peak = name.replace("acceleration", "peak_acceleration")
             largest.append((one[peak][-1] if peak in one else at_all) / STANDARD_GRAVITY)
         axes.set_title(
-            f"Floor {floor}, {side} building: up to {largest[0]:.3g} g in the run, {largest[1]:.3g} g without contact"
+            f"{what}, {side} building: up to {largest[0]:.3g} g in the run, {largest[1]:.3g} g without contact"
         )
         axes.set_ylabel("acceleration [g]")
         axes.legend(loc="lower right", ncols=2)

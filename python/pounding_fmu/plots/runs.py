@@ -24,7 +24,7 @@ ROWS_PER_IMPACT = 32
 # Of these outputs pictures are made.
 DRAWN = (
     "displacement", "acceleration", "peak_acceleration", "storey_shear", "ductility", "residual_drift", "force",
-    "penetration", "collapsed", "collapse_time",
+    "penetration", "collapsed", "collapse_time", "foundation.displacement", "foundation.rotation", "foundation.acceleration",
 )  # fmt: skip
 
 
@@ -111,8 +111,8 @@ class Runs:
         largest drift ratio then."""
         for side, count in self.scene.floors.items():
             if f"{side}.collapsed" in of and of[f"{side}.collapsed"][-1]:
-                ends = [0.0, *(float(of[f"{side}.displacement[{i}]"][-1]) for i in range(1, count + 1))]
-                ratios = np.abs(np.diff(ends)) / np.diff(self.scene.levels[side])
+                drifts = [self.scene.drift(of, side, i)[-1] for i in range(1, count + 1)]
+                ratios = np.abs(drifts) / self.scene.heights[side]
                 names = Names(self._scene).variables
                 for i in range(1, count + 1):
                     if not {f"{side}.stability_coefficient[{i}]", f"{side}.ductility[{i}]"} <= names.keys():

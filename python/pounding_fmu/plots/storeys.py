@@ -37,10 +37,10 @@ def with_and_without(runs: Runs, name: str, look: Look) -> list[tuple[Run, str, 
     return [(runs.run, f"{name}, pounding", look), (runs.alone, "without contact", ALONE)]
 
 
-def drift_of(run: Run, side: str, storey: int) -> NDArray[Any]:
+def drift_of(runs: Runs, run: Run, side: str, storey: int) -> NDArray[Any]:
     """mm, over time."""
-    above: NDArray[Any] = 1e3 * run[f"{side}.displacement[{storey}]"]
-    return above - 1e3 * run[f"{side}.displacement[{storey - 1}]"] if storey > 1 else above
+    drift: NDArray[Any] = 1e3 * runs.scene.drift(run, side, storey)
+    return drift
 
 
 def panels_over_height(scene: Layout, columns: int, width: float) -> tuple[Figure, Any]:
@@ -64,7 +64,7 @@ def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
     """Least and largest drift of each storey of a building; returns the largest magnitude, mm."""
     levels, largest = runs.scene.levels[side], 0.0
     for one, label, line in both(runs, side):
-        drift = np.array([drift_of(one, side, storey) for storey in range(1, len(levels))])
+        drift = np.array([drift_of(runs, one, side, storey) for storey in range(1, len(levels))])
         low, high = drift.min(axis=1), drift.max(axis=1)
         largest = max(largest, -float(low.min()), float(high.max()))
         if one is runs.run:
@@ -164,7 +164,7 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
     lines = both(runs, side)
     for one, label, line in lines[::-1]:
         shear = one[f"{side}.storey_shear[{storey}]"] / factor
-        axes.plot(drift_of(one, side, storey), shear, label=label, **{**line, "linewidth": 1.0})
+        axes.plot(drift_of(runs, one, side, storey), shear, label=label, **{**line, "linewidth": 1.0})
     draw_zero(axes)
     pounding, *alone = (reached(runs, one, side, storey) for one, _, _ in lines)
     compared = f" ({alone[0]})" if alone else ""

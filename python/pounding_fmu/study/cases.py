@@ -40,6 +40,11 @@ OF_STOREYS = {
 # Of each link; the energy of a dashpot is there with `outputs.energy` alone.
 OF_LINKS = {"force_n": "peak_force", "displacement_m": "peak_displacement", "energy_j": "dissipated_energy"}
 LINK = "link"
+# Of each foundation, in the ways in which it moves.
+OF_FOUNDATIONS = {
+    "displacement_m": "peak_displacement", "rotation_rad": "peak_rotation", "force_n": "peak_force", "moment_n_m": "peak_moment",
+}  # fmt: skip
+FOUNDATION = "foundation"
 OF_YIELDING = {"ductility": "ductility", "residual_drift_m": "residual_drift"}
 STRENGTH = ("stiffness", "yield_force", "post_yield_ratio")
 
@@ -81,19 +86,27 @@ class Readings:
         of_storeys = [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
         self.storeys = {(side, what): _numbered(names, f"{side}.{what}[", "]") for side in SIDES for what in of_storeys}
         self.links = {what: _numbered(names, f"{LINK}[", f"].{what}") for what in OF_LINKS.values()}
+        of_foundations = {
+            f"{side}_{FOUNDATION}_{column}": f"{side}.{FOUNDATION}.{what}"
+            for column, what in OF_FOUNDATIONS.items()
+            for side in SIDES
+        }
+        self.foundations = {column: name for column, name in of_foundations.items() if name in names}
         self.names = list(names)
         # One building may stand alone, between walls.
         self.sides = [side for side in SIDES if self.storeys[side, "peak_acceleration"]]
         self.outputs = ["impacts", *itertools.chain(*self.contacts.values())]
         self.outputs += [name for of_side in self.storeys.values() for name in of_side.values()]
         self.outputs += [name for of_link in self.links.values() for name in of_link.values()]
+        self.outputs += self.foundations.values()
         self.outputs += [f"{side}.peak_base_shear" for side in self.sides]
         self.collapses = {side: f"{side}.collapsed" for side in SIDES if f"{side}.collapsed" in names}
         self.outputs += self.collapses.values()
 
     def counts(self) -> dict[str, int]:
-        """Storeys of each building, and links."""
-        return {side: len(self.storeys[side, "peak_drift"]) for side in SIDES} | {LINK: len(self.links["peak_force"])}
+        """Storeys of each building, and links; 1 where there are foundations."""
+        others = {LINK: len(self.links["peak_force"]), FOUNDATION: int(bool(self.foundations))}
+        return {side: len(self.storeys[side, "peak_drift"]) for side in SIDES} | others
 
     def meant(self, name: str) -> list[str]:
         """The variables that a name stands for, in which `*` is any number."""
@@ -108,6 +121,7 @@ class Readings:
             row[column] = summary(value[name] for name in self.contacts[what])
         for column, what in OF_LINKS.items():
             row |= {f"{LINK}_{column}[{i}]": value[name] for i, name in self.links[what].items()}
+        row |= {column: value[name] for column, name in self.foundations.items()}
         for side in self.sides:
             row[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
             of_side = {

@@ -14,7 +14,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .cases import LINK, NEVER_CLOSES, OF_LINKS, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed
+from .cases import (
+    FOUNDATION, LINK, NEVER_CLOSES, OF_FOUNDATIONS, OF_LINKS, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed,
+)  # fmt: skip
 
 Kind = type  # of a column: str, int or float
 
@@ -42,16 +44,19 @@ MOST_PROBLEMS = 10
 
 
 def columns(storeys: Mapping[str, int]) -> dict[str, Kind]:
-    """Name and kind of every column, for buildings of up to so many storeys, and so many links."""
+    """Name and kind of every column, for buildings of up to so many storeys, and so many links, with foundations or not."""
     of_links = [f"{LINK}_{what}[{i}]" for what in OF_LINKS for i in range(1, storeys.get(LINK, 0) + 1)]
     of_storeys = [f"{side}_{what}[{i}]" for what in EACH for side in SIDES for i in range(1, storeys[side] + 1)]
-    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(of_storeys + of_links, float) | {"error": str}
+    of_foundations = [f"{side}_{FOUNDATION}_{what}" for what in OF_FOUNDATIONS for side in SIDES]
+    numbers = of_storeys + of_links + of_foundations * storeys.get(FOUNDATION, 0)
+    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(numbers, float) | {"error": str}
 
 
 def storeys_of(names: Iterable[str]) -> dict[str, int]:
-    """Of each building, and links, as many as a table with these columns has room for."""
+    """Of each building, links and foundations, as many as a table with these columns has room for."""
     known = list(names)
     firsts = {side: f"{side}_drift_m[" for side in SIDES} | {LINK: f"{LINK}_force_n["}
+    firsts[FOUNDATION] = f"left_{FOUNDATION}_displacement_m"
     return {of: sum(name.startswith(first) for name in known) for of, first in firsts.items()}
 
 

@@ -20,6 +20,19 @@ right_floor = 1
 dashpot = 600
 """
 
+# Soil under both frames: the left one sways and rocks, the right one rocks.
+SOIL = """
+[left.foundation]
+mass = 120
+inertia = 3000
+sway = { stiffness = 400e3, dashpot = 5e3 }
+rocking = { stiffness = 15e6, dashpot = 80e3 }
+[right.foundation]
+mass = 90
+inertia = 2000
+rocking = { stiffness = 12e6 }
+"""
+
 
 def plays_and_stands_still(browser):
     with visit(browser) as page:
@@ -203,6 +216,46 @@ def draws_links(browser):
         page.screenshot(path=FOLDER / "page_link_loops.png")
 
 
+def draws_foundations(browser):
+    """The soil in the picture, where slabs are level at rest and tilt as their foundation rocks; charts and peaks of it."""
+    with visit(browser) as page:
+        page.locator("#example").select_option(label="Frames of four and three storeys that yield, 20 mm apart")
+        says(page, "^4 impacts in 31.18 s")
+        assert page.locator("[data-chart^=foundation]").count() == 0
+        page.locator("#scene").fill(page.locator("#scene").input_value() + SOIL)
+        says(page, r"^\d\d impacts in 31.18 s")
+        for part, sides in (("displacement", "left"), ("rotation", "right"), ("force", "left"), ("moment", "right")):
+            assert sides in page.locator(f"[data-chart=foundation-{part}] .u-legend").inner_text(), part
+        assert "right" not in page.locator("[data-chart=foundation-displacement] .u-legend").inner_text()
+        tilted = [tilt_of(page, 0.05 * step) for step in range(120)]
+        assert abs(tilted[0]) < 0.002 and max(tilted) > 0.02 and min(tilted) < -0.02, (tilted[0], min(tilted), max(tilted))
+        tilt_of(page, 0.05 * max(range(120), key=lambda step: abs(tilted[step])))
+        page.screenshot(path=FOLDER / "page_soil.png")
+        page.locator("#tab-peaks").click()
+        rows = page.locator("#panel-peaks table", has_text="on a fixed base").locator("tr").all_inner_texts()
+        assert len(rows) == 3 and "rotation [mrad]" in rows[0] and rows[1].startswith("left\t1.28"), rows
+        assert len(re.findall(r"\d s\b", rows[1])) == 4 and len(re.findall(r"\d s\b", rows[2])) == 2, rows
+        page.locator("#tab-loops").click()
+        assert page.locator("#panel-loops figcaption", has_text="ductility").count() == 7
+
+
+def tilt_of(page, time):
+    """At a time, the slope of the left roof: pixels down for each to the right, by the tops of its outermost columns of pixels."""
+    page.locator("#time").evaluate("(bar, time) => { bar.value = time; bar.dispatchEvent(new Event('input')); }", time)
+    return page.evaluate("""() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const { width, height } = document.querySelector("#buildings"), { data } = document.querySelector("#buildings")
+            .getContext("2d").getImageData(0, 0, width, height);
+        const is = (x, y) => [0, 114, 178].every((part, i) => Math.abs(data[4 * (y * width + x) + i] - part) < 60);
+        const tops = [];
+        for (let x = 0; x < width; x++) for (let y = 0; y < height; y++) if (is(x, y)) { tops.push([x, y]); break; }
+        // The roof alone, which is the highest: the block below it may stand out.
+        const highest = Math.min(...tops.map(([, y]) => y));
+        const roof = tops.filter(([, y]) => y < highest + 25);
+        const [from, to] = [roof[3], roof.at(-4)];
+        done((to[1] - from[1]) / (to[0] - from[0]));
+    })))""")
+
+
 def devices_at(page, time):
     """At a time: the leftmost pixel of lines of devices, how many pixels are filled as a block that slips, and the displacement of
     the left roof, mm."""
@@ -299,6 +352,6 @@ def is_fast_with_many_impacts(browser):
 
 LOOKS = [
     plays_and_stands_still, shows_both_with_and_without_contact, zooms_all_charts_together, sorts_impacts_and_goes_to_them,
-    says_the_peaks, draws_loops_where_storeys_yield, draws_links, studies_the_gap, stops_a_long_run,
+    says_the_peaks, draws_loops_where_storeys_yield, draws_links, draws_foundations, studies_the_gap, stops_a_long_run,
     is_fast_with_many_impacts,
 ]  # fmt: skip
