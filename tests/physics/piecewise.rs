@@ -81,6 +81,12 @@ impl Piecewise<'_> {
         let mut mass = all(|building| &building.mass, [0.0; 2]);
         let mut pushed = DVector::from_element(mass.len(), 1.0);
         let n = mass.len();
+        for (side, of) in [Side::Left, Side::Right].map(|side| (side, &scene.building(side).foundation)) {
+            let Some(of) = of else { continue };
+            of.sway.iter().for_each(|_| mass[place(side, Place::Foundation)] = of.mass);
+            of.rocking.iter().for_each(|_| mass[place(side, Place::Rotation)] = of.inertia);
+            of.rocking.iter().for_each(|_| pushed[place(side, Place::Rotation)] = 0.0);
+        }
         let mut storeys = Vec::new();
         let mut damping = DMatrix::zeros(n, n);
         for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
@@ -109,26 +115,7 @@ impl Piecewise<'_> {
             let (stiffness, limit) = (link.stiffness, force / link.stiffness);
             storeys.push(Storey { row, stiffness, limit, ratio, can_yield: link.slip.is_some() });
         }
-        for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
-            let spring = |row, stiffness| Storey { row, stiffness, limit: f64::INFINITY, ratio: 1.0, can_yield: false };
-            // Gravity on leans, which the rotation has no part in.
-            for (i, g) in building.gravity_stiffness().into_iter().enumerate().filter(|(_, g)| *g != 0.0) {
-                let at = storeys.iter().position(|storey: &Storey| storey.row[first(side) + i] == 1.0).unwrap();
-                let mut row = storeys[at].row.clone();
-                number(building, Place::Rotation).iter().for_each(|at| row[first(side) + at] = 0.0);
-                storeys.push(spring(row, -g));
-            }
-            let Some(Foundation { mass: m, inertia, sway, rocking }) = &building.foundation else { continue };
-            for (of, inertia, soil) in [(Place::Foundation, m, sway), (Place::Rotation, inertia, rocking)] {
-                let Some(soil) = soil else { continue };
-                let at = place(side, of);
-                (mass[at], pushed[at]) = (*inertia, if of == Place::Rotation { 0.0 } else { 1.0 });
-                let mut row = DVector::zeros(n);
-                row[at] = 1.0;
-                damping[(at, at)] += soil.dashpot;
-                storeys.push(spring(row, soil.stiffness));
-            }
-        }
+        add_gravity_and_soil(scene, place, &mut storeys, &mut damping);
         let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, scene, &mass, place)).collect();
         let displacements = all(|building| &building.initial_displacement, [0.0; 2]);
         let velocities = all(|building| &building.initial_velocity, [0.0; 2]);
@@ -399,6 +386,33 @@ impl Piecewise<'_> {
 
 /// Between two impulses of a pair, s.
 const SHORTEST: f64 = 2e-3;
+
+/// Gravity on leans, which the rotation of a foundation has no part in, and the springs and dashpots of the soil.
+fn add_gravity_and_soil(
+    scene: &Scene,
+    place: impl Fn(Side, Place) -> usize,
+    storeys: &mut Vec<Storey>,
+    damping: &mut DMatrix<f64>,
+) {
+    let spring = |row, stiffness| Storey { row, stiffness, limit: f64::INFINITY, ratio: 1.0, can_yield: false };
+    for side in [Side::Left, Side::Right] {
+        let building = scene.building(side);
+        for (i, g) in building.gravity_stiffness().into_iter().enumerate().filter(|(_, g)| *g != 0.0) {
+            let floor = place(side, Place::Floor(i));
+            let mut row = storeys.iter().find(|storey| storey.row[floor] == 1.0).unwrap().row.clone();
+            number(building, Place::Rotation).iter().for_each(|_| row[place(side, Place::Rotation)] = 0.0);
+            storeys.push(spring(row, -g));
+        }
+        let Some(Foundation { sway, rocking, .. }) = &building.foundation else { continue };
+        for (of, soil) in [(Place::Foundation, sway), (Place::Rotation, rocking)] {
+            let Some(soil) = soil else { continue };
+            let (at, mut row) = (place(side, of), DVector::zeros(damping.nrows()));
+            row[at] = 1.0;
+            damping[(at, at)] += soil.dashpot;
+            storeys.push(spring(row, soil.stiffness));
+        }
+    }
+}
 
 /// The number of a displacement among those of its building: its floors, then the sway and the rotation of its foundation.
 fn number(building: &Building, place: Place) -> Option<usize> {

@@ -2,7 +2,7 @@
 
 use crate::common::{Run, scene};
 use crate::soil::{foundation, frame, run_for};
-use pounding::engine::{FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
+use pounding::engine::{EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -122,12 +122,23 @@ fn storeys_that_have_yielded_rest_where_soil_and_gravity_hold_them() {
     }
 }
 
+/// Energy of the weights, -1/2 sum of g lean^2, and its rate.
+fn rates_of_gravity(scene: &Scene, run: &Run) -> [f64; 2] {
+    let at = |of| run.read(Output::Foundation(Side::Left, of));
+    let u = [at(F::Displacement), run.displacement(Side::Left, 0), run.displacement(Side::Left, 1)];
+    let v = [at(F::Velocity), run.velocity(Side::Left, 0), run.velocity(Side::Left, 1)];
+    scene.left.gravity_stiffness().iter().enumerate().fold([0.0; 2], |[energy, rate], (i, g)| {
+        let (lean, speed) = (u[i + 1] - u[i], v[i + 1] - v[i]);
+        [energy - 0.5 * g * lean * lean, rate - g * lean * speed]
+    })
+}
+
 #[test]
 fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
     let keys = YIELDING.to_owned() + "p_delta = true\n";
     let scene = frame(&keys, &foundation(SOIL));
     let mut run = Run::new(&scene, Some(&crate::soil::shaking()));
-    let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let (mut worst, mut largest) = ([0.0_f64; 4], [0.0_f64; 4]);
     let mut rates = PointRates::default();
     for k in 1..400 {
         run.to(0.0123 * f64::from(k));
@@ -143,11 +154,15 @@ fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
         let moment = at(F::Moment) + 3e5 * rate(F::RotationRate);
         let force = at(F::Force) + 3e4 * at(F::Acceleration);
         let base = run.read(Output::BaseShear(Side::Left));
-        for (i, (one, other)) in [(moment, overturning), (force, base)].into_iter().enumerate() {
+        let gravity = rates_of_gravity(&scene, &run);
+        let of_gravity = Output::Energy(EnergyOutput::Gravity);
+        let power = run.now().rates(&rates, of_gravity)[0];
+        let all = [(moment, overturning), (force, base), (run.read(of_gravity), gravity[0]), (power, gravity[1])];
+        for (i, (one, other)) in all.into_iter().enumerate() {
             worst[i] = worst[i].max((one - other).abs());
             largest[i] = largest[i].max(one.abs());
         }
     }
-    assert!(worst[0] < 1e-12 * largest[0] && worst[1] < 1e-12 * largest[1], "{worst:?} of {largest:?}");
+    assert!(worst.iter().zip(largest).all(|(worst, largest)| *worst < 1e-12 * largest), "{worst:?} of {largest:?}");
     assert!(run.storey(Side::Left, 0).plastic != 0.0);
 }

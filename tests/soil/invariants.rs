@@ -4,7 +4,7 @@
 use crate::common::{Run, scene};
 use crate::piecewise::assert_same_motion;
 use crate::soil::{foundation, frame, run_for, shaking};
-use pounding::engine::{EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates, Side};
+use pounding::engine::{EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates, SavedState, Side};
 use pounding::scene::{Face, Scene};
 
 const LEFT: &str = "height = [4.0, 3.0]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = { dashpots = [2e5, 1e5] }\n\
@@ -136,11 +136,18 @@ fn any_communication_step_shows_the_same_bits() {
 fn a_run_goes_on_from_a_saved_state() {
     let scene = rocking();
     let whole = shown(&run_for(&scene, 3.0));
-    let mut run = Run::new(&scene, Some(&shaking()));
-    let saved = run.to(1.234).save();
-    run.to(2.5);
-    run.model.restore(&saved, &mut run.state);
-    assert_eq!(shown(run.to(3.0)), whole);
+    let (mut run, mut other) = (Run::new(&scene, Some(&shaking())), Run::new(&scene, Some(&shaking())));
+    let mut count = [0; 2];
+    for k in 1..100 {
+        run.to(0.0297 * f64::from(k));
+        count[0] += i32::from(run.contacts().iter().any(|contact| contact.active));
+        count[1] += i32::from(run.storey(Side::Left, 0).sense != 0);
+        let saved: SavedState = postcard::from_bytes(&postcard::to_allocvec(&run.save()).unwrap()).unwrap();
+        run.model.check_saved(&saved).unwrap_or_else(|error| panic!("{error}"));
+        other.model.restore(&saved, &mut other.state);
+        assert!(shown(other.to(3.0)) == whole, "saved at {} s", saved.time());
+    }
+    assert!(count.iter().all(|count| *count > 3), "in contact and yielding at {count:?} times");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! displacement         A = shape of the floor                     B = 0
-//! drift                A = that less the shape of the floor below B = 0
+//! drift                A = that less the shape of the floor below B = 0             (on soil also less h times the rotation)
 //! acceleration         A = -w^2 shape                             B = -shape C     (absolute)
 //! base shear           A = w^2 participation                      B = participation C
 //! displacement of link A = shapes of its floors, 1 and -1         B = 0
@@ -21,13 +21,14 @@ use std::ops::Range;
 pub enum PeakOf {
     /// Displacement of a floor relative to the ground, m.
     Displacement(Side, usize),
-    /// Drift of a storey, m: the displacement of its upper floor less that of its lower one.
+    /// Drift of a storey, m: the displacement of its upper floor less that of its lower one, and on soil less what the rotation of
+    /// the foundation makes of it.
     Drift(Side, usize),
     /// Absolute acceleration of a floor, m/s2.
     Acceleration(Side, usize),
     /// Force of the building on the ground, N.
     BaseShear(Side),
-    /// By how much the ends of a link have come nearer, m.
+    /// By how much the ends of a link have come nearer, m. Links of a scene come first, then the soil under foundations.
     LinkDisplacement(usize),
     /// Force with which a link pushes its ends apart, N.
     LinkForce(usize),

@@ -1,4 +1,4 @@
-//! Links in a motion: how far their ends have come nearer, and what that and their dashpots push with.
+//! Links, and soil as links on foundations, in a motion: how far their ends have come nearer, and what that and their dashpots push with.
 
 use crate::engine::base::storey::Storey;
 use crate::engine::system::System;

@@ -1,13 +1,13 @@
 //! How the plastic drift of an element moves the position of rest.
 //!
-//! In a shear building by itself it moves the floors above the storey by (1 - r) of it. Where links act on a body, it moves
-//! all of its floors, by
+//! In a shear building by itself it moves the floors above the storey by (1 - r) of it. Where links or soil act on a body, it
+//! moves all of its floors, by
 //!
 //! ```text
 //! L = (1 - r) k K^-1 row      row of the other element . L = how far that moves the other's drift at rest
 //! ```
 //!
-//! with K the stiffness of the body with all of its links, of which the modes are.
+//! with K the stiffness of the body with all of its links and soil, of which the modes are.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::Storey;

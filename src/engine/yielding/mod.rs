@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A plastic drift p moves the position in which a shear building rests by (1 - r) p in that storey, and does nothing
-//! else; where links act, that of all floors of the body (`lift.rs`). Relative to that position of rest an elastic building
+//! else; where links or soil act, that of all floors of the body (`lift.rs`). Relative to that position of rest an elastic building
 //! obeys the same linear equations as one that never yields. So all motion in the engine is relative to it, gaps are those
 //! in it, and an element stays elastic while its drift x relative to it keeps between -V_y/k + o and V_y/k + o. The middle o
 //! is p less the drift at rest: r p in a building without links. Only while an element yields another force acts on the
