@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
+use pounding::engine::{Model, Side};
 use pounding::record::Record;
 use pounding::scene::{ColumnShape, Scene, law_key};
 use pounding::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Slot, Table, Type};
@@ -160,6 +161,37 @@ fn the_guide_has_its_scene_in_t_and_kn() {
     let [mut scene, in_kn_t] = [scene.as_str(), quoted].map(|text| Scene::from_toml(text).unwrap());
     (scene.description, scene.units) = (in_kn_t.description.clone(), in_kn_t.units);
     assert_eq!(in_kn_t, scene);
+}
+
+/// A raft of 18 m by 12 m, 0.6 m thick, on soil with V_s = 200 m/s: its springs are those of the page's table, at the first
+/// period on them.
+#[test]
+fn the_foundation_of_the_page_on_soil_is_that_of_its_formulas() {
+    let page = read("docs/soil.md");
+    let block = between(&page, "```toml\n", "```").next().unwrap();
+    let scene = Scene::from_toml(&format!("name = \"Page\"\n{block}")).unwrap();
+    assert!(pounding::warnings::of(&scene, None).is_empty());
+    let foundation = scene.left.foundation.as_ref().unwrap();
+    let (density, poisson, speed, length, width) = (1800.0, 1.0 / 3.0, 200.0_f64, 9.0_f64, 6.0_f64);
+    let frequency = Model::new(&scene, None).unwrap().natural_frequencies(Side::Left)[0];
+    let omega = 2.0 * std::f64::consts::PI * frequency / pounding::structure::period_ratio(&scene.left);
+    let (modulus, aspect, a2) = (density * speed * speed, length / width, (omega * width / speed).powi(2));
+    let alpha = 1.0 - 0.55 * a2 / (0.6 + 1.4 / aspect.powi(3) + a2);
+    let beta = a2 / (1.8 / (1.0 + 1.75 * (aspect - 1.0)) + a2);
+    let moment_of_area = 4.0 * width * length.powi(3) / 3.0;
+    let mass = 2500.0 * 0.6 * 4.0 * length * width;
+    let all = mass + scene.left.mass.iter().sum::<f64>();
+    let [sway, rocking] = [foundation.sway.unwrap(), foundation.rocking.unwrap()];
+    for (written, expected) in [
+        (foundation.mass, mass),
+        (foundation.inertia, all * (2.0 * length).powi(2) / 12.0),
+        (sway.stiffness, modulus * width / (2.0 - poisson) * (6.8 * aspect.powf(0.65) + 2.4)),
+        (sway.dashpot, density * speed * 4.0 * width * length),
+        (rocking.stiffness, modulus * width.powi(3) / (1.0 - poisson) * (3.73 * aspect.powf(2.4) + 0.27) * alpha),
+        (rocking.dashpot, density * 2.0 * speed * moment_of_area * beta),
+    ] {
+        assert!((written / expected - 1.0).abs() < 0.006, "{written} not {expected}");
+    }
 }
 
 #[test]
