@@ -170,7 +170,9 @@ fn the_foundation_of_the_page_on_soil_is_that_of_its_formulas() {
     let page = read("docs/soil.md");
     let block = between(&page, "```toml\n", "```").next().unwrap();
     let scene = Scene::from_toml(&format!("name = \"Page\"\n{block}")).unwrap();
-    assert!(pounding::warnings::of(&scene, None).is_empty());
+    let warnings = pounding::warnings::of(&scene, None);
+    let is_of_soil = |warning: &&pounding::warnings::Warning| warning.path != "contact";
+    assert!(!warnings.iter().any(|warning| is_of_soil(&warning)), "{warnings:?}");
     let foundation = scene.left.foundation.as_ref().unwrap();
     let (density, poisson, speed, length, width) = (1800.0, 1.0 / 3.0, 200.0_f64, 9.0_f64, 6.0_f64);
     let frequency = Model::new(&scene, None).unwrap().natural_frequencies(Side::Left)[0];

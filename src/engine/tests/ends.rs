@@ -135,11 +135,8 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
         let row = case.rows()[p].clone();
         case.start(&mut random, Start::Any, &row);
         let is_flight = i % 2 == 0;
-        let time = if is_flight {
-            case.segment(0).length
-        } else {
-            case.segment(0).length.min(1.9 / case.system.structure.in_flight().fastest)
-        };
+        let time =
+            if is_flight { case.segment(0).length } else { case.segment(0).length.min(1.9 / case.system.fastest) };
         let [load, slope] = case.load(0);
         let motion =
             case.motion([case.base.q.clone(), case.base.v.clone()], [load.clone(), slope.clone()], (time, 4 * 64));

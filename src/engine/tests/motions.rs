@@ -112,7 +112,9 @@ fn building(random: &mut Random, side: &str, storeys: usize, frequency: f64, dam
         Damping::None => "ratio = 0.0".to_owned(),
         Damping::Classical => format!("ratio = {:?}", random.between(0.0, 0.2)),
         Damping::Coupled | Damping::Oscillating => {
-            let of = |k: &f64| k * 0.02 / w * random.between(0.1, 2.0);
+            // Oscillators differ the more from modes.
+            let heavy = if damping == Damping::Oscillating { 0.2 } else { 0.02 };
+            let of = |k: &f64| k * heavy / w * random.between(0.1, 2.0);
             format!("dashpots = {:?}", stiffness.iter().map(of).collect::<Vec<_>>())
         }
     };
