@@ -14,6 +14,7 @@ from typing import NamedTuple
 from . import _native
 from ._data import DATA
 from ._extras import MissingExtra
+from ._terminal import INTERRUPTED
 
 
 class Command(NamedTuple):
@@ -91,7 +92,7 @@ def carry_out(module: str, arguments: list[str]) -> int:
         code: int = importlib.import_module(f"pounding_fmu.{module}").main(arguments)
         sys.stdout.flush()
     except KeyboardInterrupt:
-        return 130
+        return interrupted()
     except BrokenPipeError:
         # A reader that has seen enough (`| head`): no error of ours, and nothing more to write at the end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -106,7 +107,14 @@ def carry_out(module: str, arguments: list[str]) -> int:
     except Exception as error:  # noqa: BLE001
         what = f"{type(error).__name__}: {error}"
         return say(f"pounding-fmu has met a bug of its own ({what}); please report it together with the scene")
-    return code
+    return interrupted() if code == INTERRUPTED else code
+
+
+def interrupted() -> int:
+    """The exit code of Ctrl-C. Where that has come while a library executed a string, as it does for named tuples when it is
+    imported, Python remembers it, and would end by the signal after all; executing another string makes it forget."""
+    exec("")  # noqa: S102
+    return INTERRUPTED
 
 
 def say(error: str, code: int = 1) -> int:

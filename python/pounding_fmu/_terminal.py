@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import time
 
+INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
+
 WIDTH = 30
 
 

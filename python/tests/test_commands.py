@@ -136,3 +136,13 @@ def test_a_report_of_a_scene(tmp_path):
     assert done.returncode == 1 and "cannot write no/such/place.html" in done.stderr
     done = run("report", "missing.toml", cwd=tmp_path)
     assert done.returncode == 1 and "missing.toml" in done.stderr
+
+
+def test_ctrl_c_within_an_exec_is_an_exit_code_too(tmp_path):
+    (tmp_path / "ends.py").write_text(
+        "import importlib, sys, types\n"
+        "from pounding_fmu.__main__ import carry_out\n"
+        "importlib.import_module = lambda _: types.SimpleNamespace(main=lambda _: exec('raise KeyboardInterrupt'))\n"
+        "sys.exit(carry_out('any', []))\n"
+    )
+    assert subprocess.run([sys.executable, "-m", "ends"], cwd=tmp_path).returncode == 130

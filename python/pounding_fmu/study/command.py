@@ -16,7 +16,6 @@ from .cases import Row, collapsed, varied_values
 from .fragility import INTENSITIES, LIMITS, curves, demands, write
 
 MOST_SHOWN = 7  # lines that can be told apart
-INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
 
 ABOUT = """\
 Gap width against peak force and drift, over many scenes, records and intensities.
@@ -41,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         _terminal.say("\nstopped; the same command goes on from here")
-        return INTERRUPTED
+        return _terminal.INTERRUPTED
     return 0
 
 
