@@ -5,8 +5,12 @@
 use crate::engine::base::planned::At;
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
+use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::accounted::MOST_PIECES;
+use crate::engine::flight::log::FlightLog;
+use crate::engine::model::Model;
+use crate::engine::state::Workspace;
 use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -15,6 +19,7 @@ use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
+use crate::numerics::sum::Sum;
 use crate::structure::{FlightWork, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
@@ -34,6 +39,22 @@ impl Account {
         self.input.add(done.input);
         self.viscous.add(done.viscous);
         self.external.add(done.external);
+    }
+}
+
+/// Largest number of flights that wait for the energy account.
+const MOST_WAITING: usize = 32;
+
+impl Model {
+    /// Whether flights wait until their work is added to the energy account: where damping couples modes.
+    pub(super) fn accounts_later(&self) -> bool {
+        self.energy && self.system.ground.is_some() && !self.system.structure.is_classical()
+    }
+
+    /// A log for them.
+    pub(super) fn waiting(&self) -> FlightLog {
+        let most = if self.accounts_later() { MOST_WAITING } else { 0 };
+        FlightLog::with_room((self.system.structure.lanes, 0), most)
     }
 }
 
@@ -74,22 +95,31 @@ impl System {
         }
     }
 
-    /// Adds the work of a step to the account of the base.
-    pub(super) fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Buffers) {
+    /// Adds the work of a step to the account of the base. Where damping couples modes, flights over whole segments wait
+    /// until several can be added at a time.
+    pub(super) fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Workspace) {
         if base.energy.is_none() {
             return;
         }
         let length = step.planned.length;
         if let Some(of_segment) = self.work_of_segment(base, step) {
-            let load = (base.segment.acceleration_at(0.0), base.segment.slope);
-            let (motion, largest) = ((&base.q[..], &base.v[..]), base.energy.map_or(0.0, |account| account.largest));
-            let flight = of_segment.over_all(&self.structure, motion, load, largest, &mut work.account);
-            let impact = base.dissipated_by_contacts();
-            base.add_work_of_dashpots(&work.account.dashpots);
             counters.energy_steps += 1;
-            base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
+            let load = (base.segment.acceleration_at(0.0), base.segment.slope);
+            if self.structure.is_classical() {
+                let flight = of_segment.over((base.q.as_chunks().0, base.v.as_chunks().0), load);
+                let impact = base.dissipated_by_contacts();
+                base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
+                return;
+            }
+            if work.waiting.room() == 0 {
+                self.settle(base, work);
+            }
+            let load = Load { acceleration: load.0, slope: load.1, length };
+            work.waiting.push((&base.q, &base.v), load);
             return;
         }
+        self.settle(base, work);
+        let work = &mut work.buffers;
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
@@ -103,12 +133,49 @@ impl System {
         }
     }
 
+    /// Adds the work of the flights that wait to the account of the base.
+    pub(super) fn settle(&self, base: &mut Base, Workspace { waiting, buffers, .. }: &mut Workspace) {
+        let impact = base.dissipated_by_contacts();
+        if let Some(account) = &mut base.energy {
+            self.add_waiting(waiting, impact, (account, &mut base.dashpots), &mut buffers.account);
+            waiting.truncate(0);
+        }
+    }
+
+    /// Adds the work of flights that wait to an account and to the energies dissipated by the dashpots of links, while
+    /// contacts have dissipated `impact`, J.
+    pub(super) fn add_waiting(
+        &self,
+        waiting: &FlightLog,
+        impact: f64,
+        (account, dashpots): (&mut Account, &mut [Sum]),
+        room: &mut WorkRoom,
+    ) {
+        let Some(ground) = &self.ground else { return };
+        let flights = waiting.flights_from(0, (&[], &[]));
+        let mut first = 0;
+        for of_length in flights.loads.chunk_by(|one, next| one.length == next.length) {
+            let flight = |k: usize| {
+                let Load { acceleration, slope, .. } = of_length[k];
+                (flights.motion(first + k), (acceleration, slope))
+            };
+            if let Some(work) = ground.work_over(of_length[0].length) {
+                work.over_all(&self.structure, (of_length.len(), flight), account.largest, room, |flight, done| {
+                    account.add_flight(flight, impact);
+                    dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
+                    account.largest
+                });
+            }
+            first += of_length.len();
+        }
+    }
+
     /// The work over the planned step, where it is a flight over a whole segment of the record without forces on the
     /// floors, and has been prepared.
     fn work_of_segment(&self, base: &Base, step: &Step) -> Option<&FlightWork> {
         let is_whole = step.is_flight() && base.elapsed == 0.0 && step.planned.length == base.segment.length;
         let (ground, _) = self.watched_segment(base).filter(|_| is_whole && self.is_in_flight(base))?;
-        ground.work_over(&base.segment)
+        ground.work_over(base.segment.length)
     }
 
     /// The work from the base over `length` seconds; that of the dashpots of links is left in `work`.

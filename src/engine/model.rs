@@ -10,6 +10,7 @@ use crate::engine::quantities::storeys::Storeys;
 use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
+use crate::numerics::identity::next_identity;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};
 use crate::structure::{LANES, Side, Structure};
@@ -18,6 +19,8 @@ use std::f64::consts::PI;
 /// The scene, prepared for the engine; constant during a run.
 #[derive(Debug)]
 pub struct Model {
+    /// A number that no other model has: what has been read of one is nothing to another.
+    pub(in crate::engine) identity: u64,
     pub(in crate::engine) system: System,
     /// Whether the energy account is kept.
     pub(in crate::engine) energy: bool,
@@ -62,6 +65,7 @@ impl Model {
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
+            identity: next_identity(),
             energy: scene.energy,
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),
             system,

@@ -6,9 +6,9 @@ use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
 use crate::engine::base::{Account, Base};
 use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
+use crate::engine::flight::log::FlightLog;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
-use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
@@ -149,7 +149,9 @@ pub(super) struct Workspace {
     pub windows: WindowWorkspace,
     pub peaks: PeakRoom,
     /// The flights over which the peaks of the base have not been raised yet.
-    pub log: PeakLog,
+    pub log: FlightLog,
+    /// The flights whose work the energy account of the base does not have yet.
+    pub waiting: FlightLog,
     /// The instants at which storeys have begun to yield or turned, s, where somebody asks for them.
     pub switches: Option<Vec<f64>>,
 }
@@ -168,20 +170,21 @@ impl Workspace {
     }
 
     /// The log of flights, and the part of it that the peaks use.
-    pub(in crate::engine) fn for_log(&mut self) -> (&mut PeakLog, PeakWork<'_>) {
+    pub(in crate::engine) fn for_log(&mut self) -> (&mut FlightLog, PeakWork<'_>) {
         (&mut self.log, PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks })
     }
 
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         let floors = if model.system.floor_forces { model.system.structure.floors_of_both() } else { 0 };
-        let log = if model.logs_flights() { PeakLog::new(lanes, floors) } else { PeakLog::new(0, 0) };
+        let log = if model.logs_flights() { FlightLog::new(lanes, floors) } else { FlightLog::new(0, 0) };
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, model.system.limits()),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: model.peak_room(log.room()),
             log,
+            waiting: model.waiting(),
             switches: None,
         }
     }

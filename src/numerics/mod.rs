@@ -6,6 +6,7 @@
 
 pub(crate) mod complementarity;
 pub(crate) mod economization;
+pub(crate) mod identity;
 pub(crate) mod polynomial;
 pub(crate) mod powers;
 pub(crate) mod quadrature;

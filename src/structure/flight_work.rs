@@ -7,8 +7,10 @@
 //! exact motion: W(2h) = W(h) + T' W(h) T, where z becomes T z over h. The work is found from velocities, never from the
 //! energies at both ends, so that the balance of energy still tests the motion.
 
-use super::coupled_work::CoupledWork;
+use super::bodies::Body;
+use super::coupled_work::{CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
+use super::form::{ABREAST, Abreast};
 use super::lanes::{LANES, Lane, from_left_to_right};
 use super::propagator::ModeIncrement;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -46,10 +48,12 @@ struct ModeForms {
 /// Memory for the work over flights.
 #[derive(Clone, Debug)]
 pub struct WorkRoom {
-    /// Motion and load of a flight.
-    z: Vec<f64>,
+    /// Motions and loads of flights side by side.
+    z: Vec<Abreast>,
     /// Energy dissipated by the dashpot of each link over a step, J.
     pub dashpots: Vec<f64>,
+    /// The same over flights side by side.
+    dashpots_abreast: Vec<Abreast>,
     /// Displacements and velocities of the modes where oscillators move in flights.
     pub modal: [Vec<f64>; 2],
 }
@@ -61,6 +65,7 @@ impl WorkRoom {
         WorkRoom {
             z: Vec::with_capacity(2 * structure.lanes + 2 * LANES),
             dashpots: vec![0.0; structure.links.len()],
+            dashpots_abreast: vec![[0.0; ABREAST]; structure.links.len()],
             modal: [(); 2].map(|()| vec![0.0; count]),
         }
     }
@@ -89,10 +94,13 @@ impl FlightWork {
             coupled: bodies.filter_map(|(b, body)| CoupledWork::of(structure, body, b, length)).collect(),
             ground: Default::default(),
         };
+        if structure.bodies.iter().all(Body::is_coupled) {
+            work.modes.clear();
+            return work;
+        }
         let modes = structure.omega2.iter().zip(&structure.damping).zip(&structure.participation);
         for (m, ((w2, c), participation)) in modes.enumerate() {
             if structure.couples(m) {
-                work.modes[m / LANES].omega2[m % LANES] = structure.in_flight().omega2[m];
                 continue;
             }
             let [input, viscous] = forms(w2.sqrt(), *c, *participation, length);
@@ -106,38 +114,51 @@ impl FlightWork {
         work
     }
 
-    /// Over a flight from a motion, under the ground's acceleration, m/s2, and its slope, m/s3, at the start, where damping
-    /// may couple modes. Energies that cannot exceed the `largest` so far may be 0 instead: where oscillators move, theirs cost
-    /// as much as the work.
-    pub fn over_all(
+    /// Over flights that follow each other, where damping may couple modes: `add` gets each flight's, and the energy
+    /// dissipated in it by the dashpot of each link, J. It returns the largest energy so far, which is `largest` before the
+    /// first flight: energies that cannot exceed it may be 0 instead, since where oscillators move theirs cost as much as
+    /// the work.
+    pub fn over_all<'a>(
         &self,
         structure: &Structure,
-        (q, v): (&[f64], &[f64]),
-        load: (f64, f64),
-        largest: f64,
-        WorkRoom { z, dashpots, modal: [of_q, of_v] }: &mut WorkRoom,
-    ) -> FlightEnergy {
-        dashpots.fill(0.0);
-        let mut flight = self.over((q.as_chunks().0, v.as_chunks().0), load);
-        for body in &self.coupled {
-            let [input, viscous] = body.over((q, v), load, z, dashpots);
-            flight.input += input;
-            flight.viscous += viscous;
+        (count, flight): (usize, impl Fn(usize) -> Flying<'a>),
+        mut largest: f64,
+        room: &mut WorkRoom,
+        mut add: impl FnMut(&FlightEnergy, &[f64]) -> f64,
+    ) {
+        for start in (0..count).step_by(ABREAST) {
+            let together = start..count.min(start + ABREAST);
+            let coupled = self.over_coupled(together.clone().map(&flight), room);
+            for (k, (motion, load)) in together.map(&flight).enumerate() {
+                let mut of_flight = self.over((motion.0.as_chunks().0, motion.1.as_chunks().0), load);
+                of_flight.input += coupled.input[k];
+                of_flight.viscous += coupled.viscous[k];
+                of_flight.kinetic += coupled.kinetic[k];
+                of_flight.strain += coupled.strain[k];
+                of_flight.raise_to_oscillators(structure, motion, largest, &mut room.modal);
+                room.dashpots.iter_mut().zip(&room.dashpots_abreast).for_each(|(own, all)| *own = all[k]);
+                largest = add(&of_flight, &room.dashpots);
+            }
         }
-        if let Some(oscillators) = structure.oscillators() {
-            let most = oscillators.most_energy * (flight.kinetic + flight.strain);
-            (flight.kinetic, flight.strain) = match most <= largest {
-                true => (0.0, 0.0),
-                false => {
-                    oscillators.to_modes((q, v), (of_q, of_v));
-                    structure.energies(of_q, of_v)
-                }
-            };
-        }
-        flight
     }
 
-    /// The same where it couples none.
+    /// What flights side by side do in bodies in which damping couples modes; leaves the work of the dashpots of links in the
+    /// room.
+    fn over_coupled<'a>(
+        &self,
+        flights: impl Iterator<Item = Flying<'a>> + Clone,
+        room: &mut WorkRoom,
+    ) -> CoupledEnergy {
+        let WorkRoom { z, dashpots_abreast: dashpots, .. } = room;
+        dashpots.fill([0.0; ABREAST]);
+        let mut sums = CoupledEnergy::default();
+        for body in &self.coupled {
+            sums.add(&body.over(flights.clone(), z, dashpots));
+        }
+        sums
+    }
+
+    /// Over one flight, in bodies in which it couples none.
     #[inline(always)]
     pub fn over(&self, (q, v): (&[Lane], &[Lane]), (a, s): (f64, f64)) -> FlightEnergy {
         let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];
@@ -163,6 +184,28 @@ impl FlightWork {
             kinetic: 0.5 * kinetic,
             strain: 0.5 * strain,
         }
+    }
+}
+
+impl FlightEnergy {
+    /// Makes the energies those of the modes, where oscillators move and these may exceed the largest so far, and 0 where
+    /// they cannot.
+    fn raise_to_oscillators(
+        &mut self,
+        structure: &Structure,
+        motion: (&[f64], &[f64]),
+        largest: f64,
+        [q, v]: &mut [Vec<f64>; 2],
+    ) {
+        let Some(oscillators) = structure.oscillators() else { return };
+        let most = oscillators.most_energy * (self.kinetic + self.strain);
+        (self.kinetic, self.strain) = match most <= largest {
+            true => (0.0, 0.0),
+            false => {
+                oscillators.to_modes(motion, (q, v));
+                structure.energies(q, v)
+            }
+        };
     }
 }
 

@@ -3,6 +3,12 @@
 use super::lanes::{LANES, Lane, from_left_to_right};
 use nalgebra::DMatrix;
 
+/// Number of vectors whose forms are worked out together: each entry is read once for all.
+pub(super) const ABREAST: usize = 8;
+
+/// One number of each of several vectors.
+pub(super) type Abreast = [f64; ABREAST];
+
 /// z' X z for a symmetric X: block of rows after block of rows, each from its diagonal block on, with all beyond it twice.
 #[derive(Clone, Debug)]
 pub(super) struct Form {
@@ -32,6 +38,68 @@ impl Form {
     pub(super) fn of_vector(&self, z: &[f64]) -> f64 {
         product(&self.entries, &z[..self.size])
     }
+
+    /// Of several vectors, side by side, which may be longer. The bits of each do not depend on the others.
+    pub(super) fn of_vectors(&self, z: &[Abreast]) -> Abreast {
+        products(&self.entries, &z[..self.size])
+    }
+}
+
+/// The sum of the squares of some rows times a vector.
+#[derive(Clone, Debug)]
+pub(super) struct Squares {
+    /// Four rows side by side, after each other.
+    entries: Vec<Lane>,
+    size: usize,
+}
+
+impl Squares {
+    /// Of the rows of a matrix.
+    pub(super) fn of(rows: &DMatrix<f64>) -> Squares {
+        let at = |i: usize, j: usize| rows.get((i, j)).copied().unwrap_or(0.0);
+        let blocks = (0..rows.nrows()).step_by(LANES);
+        let entries = blocks.flat_map(|i| (0..rows.ncols()).map(move |j| std::array::from_fn(|k| at(i + k, j))));
+        Squares { entries: entries.collect(), size: rows.ncols() }
+    }
+
+    /// Of several vectors, side by side.
+    pub(super) fn of_vectors(&self, z: &[Abreast]) -> Abreast {
+        let mut whole = [0.0; ABREAST];
+        for rows in self.entries.chunks_exact(self.size.max(1)) {
+            for of_row in times(rows, &z[..self.size]) {
+                (0..ABREAST).for_each(|k| whole[k] += of_row[k] * of_row[k]);
+            }
+        }
+        whole
+    }
+}
+
+/// See [`Form`].
+fn products(mut entries: &[Lane], z: &[Abreast]) -> Abreast {
+    let mut whole = [0.0; ABREAST];
+    for (block, of_rows) in z.as_chunks::<LANES>().0.iter().enumerate() {
+        let columns = &z[block * LANES..];
+        let (own, rest) = entries.split_at(columns.len());
+        for (of_row, sums) in of_rows.iter().zip(times(own, columns)) {
+            (0..ABREAST).for_each(|k| whole[k] += of_row[k] * sums[k]);
+        }
+        entries = rest;
+    }
+    whole
+}
+
+/// Four rows times several vectors: no sum has to wait for the one before.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn times(rows: &[Lane], z: &[Abreast]) -> [Abreast; LANES] {
+    let mut sums = [[0.0; ABREAST]; LANES];
+    for (four, factors) in rows.iter().zip(z) {
+        for i in 0..LANES {
+            for k in 0..ABREAST {
+                sums[i][k] += four[i] * factors[k];
+            }
+        }
+    }
+    sums
 }
 
 /// See [`Form`]; four sums side by side, so that none has to wait for the one before.

@@ -7,12 +7,11 @@ use crate::engine::base::counters::Counters;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
+use crate::engine::flight::log::{FlightLog, Logged};
 use crate::engine::model::Model;
 use crate::engine::peaks::LEFT;
-use crate::engine::peaks::log::{Logged, PeakLog};
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
-use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
@@ -74,18 +73,32 @@ impl Model {
         segments: Range<u64>,
         until: f64,
     ) -> u64 {
-        if !self.logs_flights() {
-            return fly_over(self, ground, (base, step, &mut work.buffers), segments, until, None);
-        }
-        if work.log.room() <= LEFT {
+        if self.logs_flights() && work.log.room() <= LEFT {
             let (log, mut peaks) = work.for_log();
             self.fold_log(base, (log, &mut peaks));
         }
-        let Workspace { log, buffers, .. } = work;
-        let segments = segments.start..segments.end.min(segments.start + (log.room() - 1) as u64);
-        let before = log.count();
-        let flown = fly_over(self, ground, (base, step, buffers), segments, until, Some(log));
-        log.truncate(before + flown as usize);
+        if self.accounts_later() && work.waiting.room() == 0 {
+            self.system.settle(base, work);
+        }
+        let Workspace { log, waiting, .. } = work;
+        let logs = [(log, self.logs_flights(), LEFT), (waiting, self.accounts_later(), 0)];
+        let mut logs = logs.map(|(log, is_kept, left)| is_kept.then_some((log, left)));
+        let room = logs.iter().flatten().map(|(log, left)| (log.room() - left) as u64).min().unwrap_or(u64::MAX);
+        let segments = segments.start..segments.end.min(segments.start.saturating_add(room));
+        let before = logs.each_ref().map(|log| log.as_ref().map_or(0, |(log, _)| log.count()));
+        let flown = fly_over(
+            self,
+            ground,
+            (base, step),
+            segments,
+            until,
+            logs.each_mut().map(|log| log.as_mut().map(|(log, _)| &mut **log)),
+        );
+        for (log, before) in logs.into_iter().zip(before) {
+            if let Some((log, _)) = log {
+                log.truncate(before + flown as usize);
+            }
+        }
         flown
     }
 
@@ -135,20 +148,20 @@ impl Model {
 fn fly_over(
     model: &Model,
     ground: &GroundMotion,
-    (base, step, buffers): (&mut Base, &mut Step, &mut Buffers),
+    (base, step): (&mut Base, &mut Step),
     segments: Range<u64>,
     until: f64,
-    log: Option<&mut PeakLog>,
+    logs: [Option<&mut FlightLog>; 2],
 ) -> u64 {
-    let (account, length) = (EnergyAccount::of(&model.system, ground, base, buffers), base.segment.length);
-    match (account, log) {
-        (Some(account), None) => fly_cleared(model, ground, (base, step), account, segments, until),
-        (None, None) => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
-        (Some(account), Some(log)) => {
-            fly_cleared(model, ground, (base, step), Logged { account, log, length }, segments, until)
+    let (account, length) = (EnergyAccount::of(&model.system, ground, base), base.segment.length);
+    match (account, logs) {
+        (Some(account), [None, None]) => fly_cleared(model, ground, (base, step), account, segments, until),
+        (None, [None, None]) => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
+        (Some(account), logs) => {
+            fly_cleared(model, ground, (base, step), Logged { account, logs, length }, segments, until)
         }
-        (None, Some(log)) => {
-            fly_cleared(model, ground, (base, step), Logged { account: NoAccount, log, length }, segments, until)
+        (None, logs) => {
+            fly_cleared(model, ground, (base, step), Logged { account: NoAccount, logs, length }, segments, until)
         }
     }
 }

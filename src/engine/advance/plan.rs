@@ -32,10 +32,13 @@ impl Model {
 
     /// Apart: the exact motion, until the limit or the first entry.
     fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
+        let whole = limit - at.base.elapsed;
+        if whole > self.system.longest_pieces() {
+            self.system.settle(at.base, work);
+        }
         let Workspace { buffers, look, .. } = work;
         self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
-        let whole = limit - at.base.elapsed;
         let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);

@@ -129,9 +129,9 @@ impl GroundMotion {
         self.prepared.iter().find(|interval| interval.length == segment.length)
     }
 
-    /// The work over flights of the length of a segment, where it has been prepared.
-    pub(crate) fn work_over(&self, segment: &Segment) -> Option<&FlightWork> {
-        self.work.iter().find(|work| work.length == segment.length)
+    /// The work over flights of the length of a segment, s, where it has been prepared.
+    pub(crate) fn work_over(&self, length: f64) -> Option<&FlightWork> {
+        self.work.iter().find(|work| work.length == length)
     }
 
     /// The longest of the prepared lengths, s: that of all segments of an even record.
@@ -288,7 +288,10 @@ mod tests {
             let end = motion.times.len() as u64 - 1;
             assert!(motion.prepared(&motion.segment(end - 1)).is_some() || motion.prepared.len() > MOST_PREPARED);
             for segment in [motion.segment(end), motion.segment(end + 1000)] {
-                assert!(motion.prepared(&segment).is_some() && motion.work_over(&segment).is_some(), "{segment:?}");
+                assert!(
+                    motion.prepared(&segment).is_some() && motion.work_over(segment.length).is_some(),
+                    "{segment:?}"
+                );
             }
         }
     }

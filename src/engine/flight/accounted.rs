@@ -34,7 +34,7 @@ impl System {
     /// prepared.
     pub fn is_accounted_at_once(&self, ground: &GroundMotion, base: &Base) -> bool {
         let Segment { length, .. } = base.segment;
-        base.energy.is_none() || length <= self.longest_pieces() && ground.work_over(&base.segment).is_some()
+        base.energy.is_none() || length <= self.longest_pieces() && ground.work_over(length).is_some()
     }
 
     /// Length of the longest flight that is integrated in one step, s.

@@ -3,8 +3,7 @@
 use crate::engine::base::{Account, Base};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::system::System;
-use crate::engine::system::buffers::Buffers;
-use crate::structure::{FlightWork, Lane, Structure};
+use crate::structure::{FlightWork, Lane};
 
 /// What is added up over segments that follow each other.
 pub trait SegmentAccount {
@@ -25,25 +24,16 @@ pub struct NoAccount;
 pub struct EnergyAccount<'a> {
     work: &'a FlightWork,
     account: Account,
-    /// The structure where its oscillators move, and memory for their work.
-    oscillating: Option<(&'a Structure, &'a mut Buffers)>,
     /// Energy that the contacts have dissipated, J.
     impact: f64,
 }
 
 impl EnergyAccount<'_> {
-    /// From the base on; `None` where no account is kept.
-    pub fn of<'a>(
-        system: &'a System,
-        ground: &'a GroundMotion,
-        base: &Base,
-        room: &'a mut Buffers,
-    ) -> Option<EnergyAccount<'a>> {
-        let account = base.energy?;
-        let work = ground.work_over(&base.segment)?;
-        room.dashpot_sums.clone_from(&base.dashpots);
-        let oscillating = system.structure.oscillators().map(|_| (&system.structure, room));
-        Some(EnergyAccount { work, account, oscillating, impact: base.dissipated_by_contacts() })
+    /// From the base on; `None` where no account is kept, or where flights wait for it.
+    pub fn of<'a>(system: &System, ground: &'a GroundMotion, base: &Base) -> Option<EnergyAccount<'a>> {
+        let account = base.energy.filter(|_| system.structure.is_classical())?;
+        let work = ground.work_over(base.segment.length)?;
+        Some(EnergyAccount { work, account, impact: base.dissipated_by_contacts() })
     }
 }
 
@@ -68,23 +58,12 @@ impl SegmentAccount for EnergyAccount<'_> {
 
     #[inline(always)]
     fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
-        let flight = match &mut self.oscillating {
-            None => self.work.over(motion, load),
-            Some((structure, Buffers { account: room, dashpot_sums, .. })) => {
-                let motion = (motion.0.as_flattened(), motion.1.as_flattened());
-                let flight = self.work.over_all(structure, motion, load, self.account.largest, room);
-                dashpot_sums.iter_mut().zip(&room.dashpots).for_each(|(sum, done)| sum.add(*done));
-                flight
-            }
-        };
+        let flight = self.work.over(motion, load);
         self.account.add_flight(&flight, self.impact);
     }
 
     #[inline(always)]
     fn store(self, base: &mut Base) {
         base.energy = Some(self.account);
-        if let Some((_, room)) = self.oscillating {
-            base.dashpots.clone_from(&room.dashpot_sums);
-        }
     }
 }

@@ -4,6 +4,7 @@
 pub mod accounted;
 pub mod broad_phase;
 pub mod fast_account;
+pub mod log;
 pub mod propagate;
 pub mod search;
 pub mod workspace;

@@ -27,15 +27,20 @@ impl Model {
     #[inline(never)]
     fn read_energy(&self, mut account: Account, state: &State, work: &mut Buffers, point: &Point) -> EnergyPoint {
         let elapsed = state.since_base();
+        let mut sums = std::mem::take(&mut work.dashpot_sums);
+        sums.clone_from(&state.base.dashpots);
+        let impact = state.base.dissipated_by_contacts();
+        self.system.add_waiting(&state.work.waiting, impact, (&mut account, &mut sums), &mut work.account);
         work.account.dashpots.fill(0.0);
         if elapsed > 0.0 {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.add(&done);
         }
-        let dashpots = state.base.dashpots.iter().zip(&work.account.dashpots).map(|(sum, done)| sum.exact() + done);
+        let dashpots = sums.iter().zip(&work.account.dashpots).map(|(sum, done)| sum.exact() + done);
         let mut shown = point.dashpots.borrow_mut();
         shown.clear();
         shown.extend(dashpots);
+        work.dashpot_sums = sums;
         let soil = self.energy_of_soil(&shown);
         let [kinetic, strain, gravity] = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);

@@ -27,7 +27,6 @@ use crate::engine::output::outputs::ContactPoint;
 use crate::engine::output::point::{Known, Point};
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
 use std::cell::Cell;
@@ -37,9 +36,7 @@ impl Model {
     ///
     /// Floors, accelerations, open contacts, peaks and the energy account are worked out only when one is read.
     pub fn observe<'a>(&'a self, state: &'a State, point: &'a mut Point) -> Instant<'a> {
-        let (System { structure, pairs, storeys, .. }, found) = (&self.system, &*point);
-        let is_of_another = found.contacts.len() != pairs.len() || found.storeys.len() != storeys.len();
-        if found.q.len() != structure.lanes || is_of_another {
+        if point.model != self.identity {
             self.make_room(point);
         }
         point.floors.forget();
@@ -54,7 +51,7 @@ impl Model {
         let elapsed = state.since_base();
         let mut work = self.take_buffers(point);
         step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
-        if let (true, Some(oscillators)) = (base.oscillates, structure.oscillators()) {
+        if let (true, Some(oscillators)) = (base.oscillates, self.system.structure.oscillators()) {
             let Point { q, v, oscillating, .. } = &mut *point;
             let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
             std::mem::swap(q, of_q);
@@ -98,6 +95,7 @@ impl Model {
     #[cold]
     fn make_room(&self, point: &mut Point) {
         let lanes = self.system.structure.lanes;
+        point.model = self.identity;
         point.oscillating = None;
         (point.q, point.v, point.rest) = (vec![0.0; lanes], vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];

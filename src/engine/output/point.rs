@@ -16,6 +16,8 @@ pub struct Point {
     pub ground_acceleration: f64,
     /// Number of contact episodes begun so far, of all contacts.
     pub impacts: u64,
+    /// The number of the model whose solution it is.
+    pub(in crate::engine) model: u64,
     /// The coordinates of the following vectors.
     pub(in crate::engine) coordinates: Coordinates,
     /// Displacements relative to the position of rest, of which `floors` is made.

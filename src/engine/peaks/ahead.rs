@@ -7,10 +7,10 @@
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
+use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
 use crate::engine::peaks::fold::is_below;
 use crate::engine::peaks::fold_room::{LONG, Survivor};
-use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::PeakWork;
 use crate::structure::{Interval, LANES};
 
@@ -20,7 +20,7 @@ const AHEAD: usize = LONG - 1;
 /// Flights that are expected, and the blocks of quantities that may exceed their peaks in them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::engine) struct FlightsAhead {
-    log: PeakLog,
+    log: FlightLog,
     /// Number of flights that have come.
     come: usize,
     /// The watched quantities at rest.
@@ -100,7 +100,7 @@ impl Model {
         ahead.forget();
         let FlightsAhead { log, rest, survivors, .. } = ahead;
         if log.room() == 0 {
-            *log = PeakLog::with_room((self.system.structure.lanes, 0), AHEAD + 1);
+            *log = FlightLog::with_room((self.system.structure.lanes, 0), AHEAD + 1);
         }
         let is_flight = self.system.is_in_flight(base) && base.elapsed == 0.0 && !base.is_forced();
         let Some((ground, first)) = self.system.watched_segment(base).filter(|_| is_flight) else { return };

@@ -3,7 +3,7 @@
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
-//! are needed: flights are logged ([`log`]) and read many at once, by their slow modes ([`fold`]). In contact the largest
+//! are needed: flights are logged (`flight/log.rs`) and read many at once, by their slow modes ([`fold`]). In contact the largest
 //! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
 //! series in time ([`reading`]).
@@ -20,7 +20,6 @@ pub mod floors;
 pub mod fold;
 mod fold_room;
 pub mod links;
-pub mod log;
 mod quantity;
 pub mod reading;
 pub mod rest;
@@ -32,8 +31,8 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Load, set_energies};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
-use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::Step;
 
@@ -81,7 +80,7 @@ impl Model {
         base: &mut Base,
         Step { planned, .. }: &Step,
         inputs: &Inputs,
-        (log, mut work): (&mut PeakLog, PeakWork),
+        (log, mut work): (&mut FlightLog, PeakWork),
     ) {
         if log.room() <= LEFT {
             self.fold_log(base, (log, &mut work));
@@ -99,7 +98,7 @@ impl Model {
 
     /// Raises the peaks over all logged flights, and empties the log.
     #[inline(never)]
-    pub(in crate::engine) fn fold_log(&self, base: &mut Base, (log, work): (&mut PeakLog, &mut PeakWork)) {
+    pub(in crate::engine) fn fold_log(&self, base: &mut Base, (log, work): (&mut FlightLog, &mut PeakWork)) {
         if log.count() == 0 {
             return;
         }
@@ -112,7 +111,7 @@ impl Model {
 
     /// Makes the log ready for a step in contact or in which a storey yields: contact forces change the motion, and storeys
     /// that yield the position of rest.
-    pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut PeakLog, PeakWork)) {
+    pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut FlightLog, PeakWork)) {
         if base.is_yielding() || log.count() > WORTH_FOLDING {
             self.fold_log(base, (log, &mut work));
         } else {

@@ -34,7 +34,7 @@ pub struct Buffers {
     pub node_v: Vec<f64>,
     /// Memory for the work over a flight, with the energy that the dashpots of links dissipate over any step.
     pub account: WorkRoom,
-    /// That energy since the start, J, while fast flight passes over many segments.
+    /// That energy since the start, J, while it is read.
     pub dashpot_sums: Vec<Sum>,
     /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,

@@ -6,7 +6,7 @@ use crate::engine::Model;
 use crate::engine::base::Coordinates;
 use crate::engine::bounds::flights::{Flights, Load, set_energies};
 use crate::engine::bounds::span::{ModeSizes, PART, Span};
-use crate::engine::peaks::log::PeakLog;
+use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ const INSTANTS: usize = 16;
 /// Two buildings under a random ground motion, and flights of theirs.
 struct Case {
     model: Model,
-    log: PeakLog,
+    log: FlightLog,
     end: (Vec<f64>, Vec<f64>),
 }
 
@@ -54,7 +54,7 @@ impl Case {
         let scene = Scene::from_toml(&text).unwrap();
         let model = Model::new(&scene, Some(&Record { times, accelerations })).unwrap();
         let floors = if has_forces { model.system.structure.floors_of_both() } else { 0 };
-        let log = PeakLog::new(model.system.structure.lanes, floors);
+        let log = FlightLog::new(model.system.structure.lanes, floors);
         Case { model, log, end: (Vec::new(), Vec::new()) }
     }
 

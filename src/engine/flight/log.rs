@@ -1,14 +1,16 @@
-//! The log of flights over which the peaks have not been raised yet.
+//! Logs of flights that are looked at later, many at once.
 //!
 //! Most quantities never come near their peaks, and which do is known best when the peaks are almost known. So flights
-//! are only logged; the log is folded into the peaks (`fold.rs`) when it is full, before a contact if it is long, when a
+//! are only logged; the log is folded into the peaks (`peaks/fold.rs`) when it is full, before a contact if it is long, when a
 //! storey begins to yield, and before a state is saved. Whoever reads a peak folds what is logged into a copy.
+//!
+//! Where damping couples modes, a second log holds the flights that wait to be added to the energy account (`energy.rs`).
 
 use crate::engine::base::Base;
 use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::engine::flight::fast_account::SegmentAccount;
+use crate::numerics::identity::next_identity;
 use crate::structure::{LANES, Lane};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest number of logged motions, and of bytes.
 const MOST: usize = 1024;
@@ -19,7 +21,7 @@ const LEAST: usize = 4;
 /// The motions at the starts of flights that follow each other, oldest first. The last flight ends at the base, unless the
 /// log is closed: then a gap is its last entry.
 #[derive(Debug, Default)]
-pub struct PeakLog {
+pub struct FlightLog {
     lanes: usize,
     most: usize,
     q: Vec<f64>,
@@ -41,18 +43,18 @@ struct ForceLog {
     sets: Vec<f64>,
 }
 
-impl PeakLog {
+impl FlightLog {
     /// For vectors of that many lanes, with forces on so many floors.
-    pub fn new(lanes: usize, floors: usize) -> PeakLog {
+    pub fn new(lanes: usize, floors: usize) -> FlightLog {
         let numbers = 2 * lanes + if floors == 0 { 0 } else { lanes + 2 * (floors + LANES) };
         let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (8 * numbers)).max(LEAST) };
-        PeakLog::with_room((lanes, floors), most)
+        FlightLog::with_room((lanes, floors), most)
     }
 
     /// A log for so many entries.
-    pub fn with_room((lanes, floors): (usize, usize), most: usize) -> PeakLog {
+    pub fn with_room((lanes, floors): (usize, usize), most: usize) -> FlightLog {
         let room = || Vec::with_capacity(most * lanes);
-        PeakLog {
+        FlightLog {
             lanes,
             most,
             q: room(),
@@ -169,9 +171,9 @@ impl ForceLog {
     }
 }
 
-impl Clone for PeakLog {
-    fn clone(&self) -> PeakLog {
-        let mut log = PeakLog::new(self.lanes, self.forces.as_ref().map_or(0, |forces| forces.floors));
+impl Clone for FlightLog {
+    fn clone(&self) -> FlightLog {
+        let mut log = FlightLog::new(self.lanes, self.forces.as_ref().map_or(0, |forces| forces.floors));
         log.q.extend_from_slice(&self.q);
         log.v.extend_from_slice(&self.v);
         log.loads.extend_from_slice(&self.loads);
@@ -184,15 +186,10 @@ impl Clone for PeakLog {
     }
 }
 
-fn next_identity() -> u64 {
-    static NEXT: AtomicU64 = AtomicU64::new(1);
-    NEXT.fetch_add(1, Ordering::Relaxed)
-}
-
-/// An account that logs the segments as well.
+/// An account that logs the segments as well, in one log or two.
 pub struct Logged<'a, A> {
     pub account: A,
-    pub log: &'a mut PeakLog,
+    pub logs: [Option<&'a mut FlightLog>; 2],
     /// Length of the segments, s.
     pub length: f64,
 }
@@ -206,7 +203,8 @@ impl<A: SegmentAccount> SegmentAccount for Logged<'_, A> {
     #[inline(always)]
     fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
         let (q, v) = (motion.0.as_flattened(), motion.1.as_flattened());
-        self.log.push((q, v), Load { acceleration: load.0, slope: load.1, length: self.length });
+        let of_flight = Load { acceleration: load.0, slope: load.1, length: self.length };
+        self.logs.iter_mut().flatten().for_each(|log| log.push((q, v), of_flight));
         self.account.add(motion, load);
     }
 
