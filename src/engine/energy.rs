@@ -20,7 +20,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{FlightWork, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,6 +39,11 @@ impl Account {
         self.input.add(done.input);
         self.viscous.add(done.viscous);
         self.external.add(done.external);
+    }
+
+    /// Which energies could be larger than all terms so far: none, where nothing but the ground has put any in.
+    fn counts(&self) -> Counts {
+        Counts { above: self.largest, at_most: self.initial + self.input.value + self.external.value }
     }
 }
 
@@ -160,10 +165,10 @@ impl System {
                 (flights.motion(first + k), (acceleration, slope))
             };
             if let Some(work) = ground.work_over(of_length[0].length) {
-                work.over_all(&self.structure, (of_length.len(), flight), account.largest, room, |flight, done| {
+                work.over_all(&self.structure, (of_length.len(), flight), account.counts(), room, |flight, done| {
                     account.add_flight(flight, impact);
                     dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
-                    account.largest
+                    account.counts()
                 });
             }
             first += of_length.len();
@@ -295,7 +300,7 @@ impl System {
         work.series = series;
     }
 
-    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds. Uncoupled modes are
+    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds. Modes are
     /// evaluated at all nodes side by side.
     fn integrate_series(
         &self,
@@ -306,7 +311,7 @@ impl System {
         done: &mut Work,
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
-        if !is_plain || !self.structure.is_classical() || series.time_map.is_curved() {
+        if !is_plain || series.time_map.is_curved() {
             let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
                 series.set_powers(t, powers);
                 series.evaluate(powers, q, v);
@@ -314,11 +319,17 @@ impl System {
             return self.integrate(base, motion, gauss(TWELVE, length), from, work, done);
         }
         let times = TWELVE_POINTS.map(|(node, _)| node * length);
-        let [momentum, viscous] = series.powers_at_nodes(&self.structure, &times.map(|t| t / series.scale));
+        let x = times.map(|t| t / series.scale);
+        let oscillators = self.structure.oscillators().filter(|_| base.oscillates);
+        let WorkRoom { dashpots, nodes, .. } = &mut work.account;
+        let [momentum, viscous] = series.powers_at_nodes(&self.structure, oscillators, &x, nodes);
         for (i, (_, weight)) in TWELVE_POINTS.iter().enumerate() {
             let acceleration = base.segment.acceleration_at(base.elapsed + from + times[i]);
             done.input -= weight * length * acceleration * momentum[i];
             done.viscous += weight * length * viscous[i];
+            for (done, power) in dashpots.iter_mut().zip(&nodes.dashpots) {
+                *done += weight * length * power[i];
+            }
         }
     }
 

@@ -13,7 +13,7 @@
 
 use super::bodies::Body;
 use super::equations::Structure;
-use super::form::{ABREAST, Abreast, Form, Squares};
+use super::form::{Form, Squares};
 use super::lanes::LANES;
 use super::modes::ModalDamping;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -28,6 +28,12 @@ const POINTS_TERMS: u32 = 40;
 
 /// Terms of these series: 2^24 REACH^24 / 24! is 2e-24.
 const TERMS: u32 = 24;
+
+/// Number of flights whose work is found together: each entry of a form is read once for all.
+pub(super) const ABREAST: usize = 8;
+
+/// One number of each of them.
+pub(super) type Abreast = [f64; ABREAST];
 
 /// Displacements and velocities at the start of a flight, and the ground's acceleration, m/s2, and its slope, m/s3.
 pub(super) type Flying<'a> = ((&'a [f64], &'a [f64]), (f64, f64));

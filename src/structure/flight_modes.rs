@@ -56,6 +56,15 @@ impl FlightModes {
         self.convert(|map| &map.to_modes, from, to);
     }
 
+    /// Writes the velocities of the modes of several motions side by side.
+    pub(super) fn velocities_of_modes<const N: usize>(&self, (q, v): (&[[f64; N]], &[[f64; N]]), out: &mut [[f64; N]]) {
+        out.copy_from_slice(v);
+        for Map { offset, count, to_modes, .. } in &self.maps {
+            let own = *offset..offset + count;
+            multiply_abreast(to_modes.as_slice(), (&q[own.clone()], &v[own.clone()]), &mut out[own]);
+        }
+    }
+
     /// Writes the oscillators' coordinates and their rates from displacements and velocities of the modes.
     pub fn from_modes(&self, from: (&[f64], &[f64]), to: (&mut [f64], &mut [f64])) {
         self.convert(|map| &map.from_modes, from, to);
@@ -105,6 +114,20 @@ fn multiply(matrix: &[f64], (q, v): (&[f64], &[f64]), (to_q, to_v): (&mut [f64],
         }
         for (to, entry) in to_v.iter_mut().zip(on_v) {
             *to += entry * factor;
+        }
+    }
+}
+
+/// The lower half of such a matrix times several vectors side by side.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn multiply_abreast<const N: usize>(matrix: &[f64], (q, v): (&[[f64; N]], &[[f64; N]]), out: &mut [[f64; N]]) {
+    let count = out.len();
+    out.fill([0.0; N]);
+    for (column, factors) in matrix.chunks_exact((2 * count).max(1)).zip(q.iter().chain(v)) {
+        for (to, entry) in out.iter_mut().zip(&column[count..]) {
+            for i in 0..N {
+                to[i] += entry * factors[i];
+            }
         }
     }
 }

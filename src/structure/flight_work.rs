@@ -8,11 +8,11 @@
 //! energies at both ends, so that the balance of energy still tests the motion.
 
 use super::bodies::Body;
-use super::coupled_work::{CoupledEnergy, CoupledWork, Flying};
+use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
-use super::form::{ABREAST, Abreast};
 use super::lanes::{LANES, Lane, from_left_to_right};
 use super::propagator::ModeIncrement;
+use super::series::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
 use nalgebra::{Matrix4, Vector4};
 
@@ -56,6 +56,8 @@ pub struct WorkRoom {
     dashpots_abreast: Vec<Abreast>,
     /// Displacements and velocities of the modes where oscillators move in flights.
     pub modal: [Vec<f64>; 2],
+    /// Motions at the nodes of a quadrature.
+    pub nodes: NodeRoom,
 }
 
 impl WorkRoom {
@@ -67,6 +69,7 @@ impl WorkRoom {
             dashpots: vec![0.0; structure.links.len()],
             dashpots_abreast: vec![[0.0; ABREAST]; structure.links.len()],
             modal: [(); 2].map(|()| vec![0.0; count]),
+            nodes: NodeRoom::new(structure),
         }
     }
 }
@@ -82,6 +85,15 @@ pub struct FlightEnergy {
     pub kinetic: f64,
     /// Strain energy.
     pub strain: f64,
+}
+
+/// Which kinetic and strain energies count, J.
+#[derive(Clone, Copy, Debug)]
+pub struct Counts {
+    /// Those above the largest energy so far.
+    pub above: f64,
+    /// They are at most what has been put in.
+    pub at_most: f64,
 }
 
 impl FlightWork {
@@ -115,16 +127,15 @@ impl FlightWork {
     }
 
     /// Over flights that follow each other, where damping may couple modes: `add` gets each flight's, and the energy
-    /// dissipated in it by the dashpot of each link, J. It returns the largest energy so far, which is `largest` before the
-    /// first flight: energies that cannot exceed it may be 0 instead, since where oscillators move theirs cost as much as
-    /// the work.
+    /// dissipated in it by the dashpot of each link, J. It returns how much energy counts from there on; `counts` is what
+    /// does in the first flight.
     pub fn over_all<'a>(
         &self,
         structure: &Structure,
         (count, flight): (usize, impl Fn(usize) -> Flying<'a>),
-        mut largest: f64,
+        mut counts: Counts,
         room: &mut WorkRoom,
-        mut add: impl FnMut(&FlightEnergy, &[f64]) -> f64,
+        mut add: impl FnMut(&FlightEnergy, &[f64]) -> Counts,
     ) {
         for start in (0..count).step_by(ABREAST) {
             let together = start..count.min(start + ABREAST);
@@ -135,9 +146,9 @@ impl FlightWork {
                 of_flight.viscous += coupled.viscous[k];
                 of_flight.kinetic += coupled.kinetic[k];
                 of_flight.strain += coupled.strain[k];
-                of_flight.raise_to_oscillators(structure, motion, largest, &mut room.modal);
+                of_flight.raise_to_oscillators(structure, motion, counts, &mut room.modal);
                 room.dashpots.iter_mut().zip(&room.dashpots_abreast).for_each(|(own, all)| *own = all[k]);
-                largest = add(&of_flight, &room.dashpots);
+                counts = add(&of_flight, &room.dashpots);
             }
         }
     }
@@ -188,18 +199,18 @@ impl FlightWork {
 }
 
 impl FlightEnergy {
-    /// Makes the energies those of the modes, where oscillators move and these may exceed the largest so far, and 0 where
-    /// they cannot.
+    /// Makes the energies those of the modes where oscillators move, or 0 where they do not count: theirs cost as much as the
+    /// work.
     fn raise_to_oscillators(
         &mut self,
         structure: &Structure,
         motion: (&[f64], &[f64]),
-        largest: f64,
+        Counts { above, at_most }: Counts,
         [q, v]: &mut [Vec<f64>; 2],
     ) {
         let Some(oscillators) = structure.oscillators() else { return };
         let most = oscillators.most_energy * (self.kinetic + self.strain);
-        (self.kinetic, self.strain) = match most <= largest {
+        (self.kinetic, self.strain) = match most <= above || at_most <= above {
             true => (0.0, 0.0),
             false => {
                 oscillators.to_modes(motion, (q, v));

@@ -1,13 +1,7 @@
 //! Quadratic forms of vectors.
 
-use super::lanes::{LANES, Lane, from_left_to_right};
+use super::lanes::{LANES, Lane};
 use nalgebra::DMatrix;
-
-/// Number of vectors whose forms are worked out together: each entry is read once for all.
-pub(super) const ABREAST: usize = 8;
-
-/// One number of each of several vectors.
-pub(super) type Abreast = [f64; ABREAST];
 
 /// z' X z for a symmetric X: block of rows after block of rows, each from its diagonal block on, with all beyond it twice.
 #[derive(Clone, Debug)]
@@ -34,13 +28,8 @@ impl Form {
         Form { entries: blocks.collect(), size }
     }
 
-    /// Of a vector, which may be longer.
-    pub(super) fn of_vector(&self, z: &[f64]) -> f64 {
-        product(&self.entries, &z[..self.size])
-    }
-
-    /// Of several vectors, side by side, which may be longer. The bits of each do not depend on the others.
-    pub(super) fn of_vectors(&self, z: &[Abreast]) -> Abreast {
+    /// Of several vectors, side by side, which may be longer. The bits of each do not depend on the others, nor on their number.
+    pub(super) fn of_vectors<const N: usize>(&self, z: &[[f64; N]]) -> [f64; N] {
         products(&self.entries, &z[..self.size])
     }
 }
@@ -63,64 +52,48 @@ impl Squares {
     }
 
     /// Of several vectors, side by side.
-    pub(super) fn of_vectors(&self, z: &[Abreast]) -> Abreast {
-        let mut whole = [0.0; ABREAST];
-        for rows in self.entries.chunks_exact(self.size.max(1)) {
-            for of_row in times(rows, &z[..self.size]) {
-                (0..ABREAST).for_each(|k| whole[k] += of_row[k] * of_row[k]);
-            }
-        }
-        whole
+    pub(super) fn of_vectors<const N: usize>(&self, z: &[[f64; N]]) -> [f64; N] {
+        squares_of(&self.entries, &z[..self.size])
     }
 }
 
 /// See [`Form`].
-fn products(mut entries: &[Lane], z: &[Abreast]) -> Abreast {
-    let mut whole = [0.0; ABREAST];
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn products<const N: usize>(mut entries: &[Lane], z: &[[f64; N]]) -> [f64; N] {
+    let mut whole = [0.0; N];
     for (block, of_rows) in z.as_chunks::<LANES>().0.iter().enumerate() {
         let columns = &z[block * LANES..];
         let (own, rest) = entries.split_at(columns.len());
         for (of_row, sums) in of_rows.iter().zip(times(own, columns)) {
-            (0..ABREAST).for_each(|k| whole[k] += of_row[k] * sums[k]);
+            (0..N).for_each(|k| whole[k] += of_row[k] * sums[k]);
         }
         entries = rest;
     }
     whole
 }
 
-/// Four rows times several vectors: no sum has to wait for the one before.
+/// See [`Squares`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn times(rows: &[Lane], z: &[Abreast]) -> [Abreast; LANES] {
-    let mut sums = [[0.0; ABREAST]; LANES];
+fn squares_of<const N: usize>(entries: &[Lane], z: &[[f64; N]]) -> [f64; N] {
+    let mut whole = [0.0; N];
+    for rows in entries.chunks_exact(z.len().max(1)) {
+        for of_row in times(rows, z) {
+            (0..N).for_each(|k| whole[k] += of_row[k] * of_row[k]);
+        }
+    }
+    whole
+}
+
+/// Four rows times several vectors: no sum has to wait for the one before.
+#[inline(always)]
+fn times<const N: usize>(rows: &[Lane], z: &[[f64; N]]) -> [[f64; N]; LANES] {
+    let mut sums = [[0.0; N]; LANES];
     for (four, factors) in rows.iter().zip(z) {
         for i in 0..LANES {
-            for k in 0..ABREAST {
+            for k in 0..N {
                 sums[i][k] += four[i] * factors[k];
             }
         }
     }
     sums
-}
-
-/// See [`Form`]; four sums side by side, so that none has to wait for the one before.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn product(mut entries: &[Lane], z: &[f64]) -> f64 {
-    let mut whole = [0.0; LANES];
-    for (block, of_rows) in z.as_chunks::<LANES>().0.iter().enumerate() {
-        let columns = z[block * LANES..].as_chunks::<LANES>().0;
-        let (own, rest) = entries.split_at(columns.len() * LANES);
-        let mut sums = [[0.0; LANES]; LANES];
-        for (four, factors) in own.as_chunks::<LANES>().0.iter().zip(columns) {
-            for k in 0..LANES {
-                for i in 0..LANES {
-                    sums[k][i] += four[k][i] * factors[k];
-                }
-            }
-        }
-        for i in 0..LANES {
-            whole[i] += of_rows[i] * ((sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]));
-        }
-        entries = rest;
-    }
-    from_left_to_right(whole)
 }

@@ -57,7 +57,7 @@ pub use bodies::Body;
 pub use equations::{Scratch, Structure};
 pub use first_mode::FirstMode;
 pub use flight_modes::FlightModes;
-pub use flight_work::{FlightEnergy, FlightWork, WorkRoom};
+pub use flight_work::{Counts, FlightEnergy, FlightWork, WorkRoom};
 pub use floors::Floors;
 pub use free_rows::FreeRows;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};

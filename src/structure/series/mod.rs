@@ -10,6 +10,7 @@ use crate::numerics::polynomial::{MAX_TERMS, SECOND};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
 use crate::numerics::time_map::TimeMap;
+pub(super) use power::NodeRoom;
 use project::{dot_each, project};
 use std::ops::Range;
 use sums::{sum_sizes, sum_terms};
