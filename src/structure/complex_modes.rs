@@ -65,7 +65,7 @@ struct Oscillator {
     rows: [DVector<f64>; 2],
 }
 
-/// A complex mode: lambda, phi, the row that gives z from (q, v), and the z'' that the ground pushes with.
+/// A complex mode: lambda, phi, the row that gives z from (q, v), and the z' that the ground pushes with.
 struct ComplexMode {
     lambda: Complex<f64>,
     shape: DVector<Complex<f64>>,

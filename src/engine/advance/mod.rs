@@ -310,9 +310,11 @@ impl Model {
                 contact.tracked = self.system.is_close(p, penetration, base.coordinates, &base.q);
                 continue;
             }
-            let (penetration, rate) = pair.penetration_at(base.rest.gaps[p], base);
-            contact.penetration = if contact.in_contact() { contact.penetration } else { penetration };
-            contact.rate = rate;
+            // That of a closed contact the step has followed.
+            if !contact.in_contact() {
+                contact.penetration = pair.penetration_at(base.rest.gaps[p], base);
+            }
+            contact.rate = pair.rate_at(base);
         }
         base.contacts = contacts;
     }

@@ -83,11 +83,19 @@ impl Pair {
         (row.value(motion) - gap, row.rate(motion))
     }
 
-    /// The same at the base of a step.
-    pub(crate) fn penetration_at(&self, gap: f64, Base { coordinates, oscillates, q, v, .. }: &Base) -> (f64, f64) {
-        match oscillates {
-            true => self.penetration(gap, (q, v)),
-            false => (self.relative(*coordinates, q) - gap, self.relative(*coordinates, v)),
+    /// Penetration at the base of a step, m.
+    pub(crate) fn penetration_at(&self, gap: f64, base: &Base) -> f64 {
+        match base.oscillates {
+            true => self.in_flight().value((&base.q, &base.v)) - gap,
+            false => self.relative(base.coordinates, &base.q) - gap,
+        }
+    }
+
+    /// Its rate, m/s.
+    pub(crate) fn rate_at(&self, base: &Base) -> f64 {
+        match base.oscillates {
+            true => self.in_flight().rate((&base.q, &base.v)),
+            false => self.relative(base.coordinates, &base.v),
         }
     }
 

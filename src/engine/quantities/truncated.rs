@@ -184,52 +184,57 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 
 impl TruncatedBlock {
     fn of((block, oscillates): (&Block, bool), (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
-        match oscillates {
-            true => TruncatedBlock::of_oscillators(block, (modes, slow), groups),
-            false => TruncatedBlock::of_modes(block, (modes, slow), groups),
-        }
-    }
-
-    fn of_oscillators(
-        Block { on_q, on_v }: &Block,
-        (modes, slow): (&[Mode], usize),
-        groups: &[Group],
-    ) -> TruncatedBlock {
+        let quick = |m: usize, i: usize| match oscillates {
+            true => quick_oscillator(&modes[m], (block.on_q[m][i], block.on_v.get(m).map_or(0.0, |of| of[i]))),
+            false => quick_mode(&modes[m], block.on_q[m][i], !block.on_v.is_empty()),
+        };
         let (mut per_ground, mut per_slope) = ([0.0; LANES], [0.0; LANES]);
         let mut left = vec![[0.0; LANES]; groups.len()];
         for (group, left) in groups.iter().zip(&mut left) {
             for m in group.modes.clone() {
-                let Mode { w2, w, c, share } = modes[m];
                 for i in 0..LANES {
-                    let (a, b) = (on_q[m][i], on_v.get(m).map_or(0.0, |of| of[i]));
-                    per_ground[i] -= a * share / w2;
-                    per_slope[i] += (a * c / w2 - b) * share / w2;
-                    left[i] += a.abs() / w2 + b.abs() / w;
+                    let part = quick(m, i);
+                    per_ground[i] += part.per_ground;
+                    per_slope[i] += part.per_slope;
+                    left[i] += part.left;
                 }
             }
         }
-        let rows = [on_q, on_v].map(|rows| rows.iter().take(slow).copied().collect());
+        let rows = slow_rows((block, oscillates), &modes[..slow]);
         TruncatedBlock { rows, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
     }
+}
 
-    fn of_modes(block: &Block, (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
-        let pulls = !block.on_v.is_empty();
-        let row = |m: usize, i: usize| block.on_q[m][i] / if pulls { modes[m].w2 } else { 1.0 };
-        let (mut per_ground, mut per_slope) = ([0.0; LANES], [0.0; LANES]);
-        let mut left = vec![[0.0; LANES]; groups.len()];
-        for (group, left) in groups.iter().zip(&mut left) {
-            for m in group.modes.clone() {
-                let Mode { w2, w, c, share } = modes[m];
-                for i in 0..LANES {
-                    let a = row(m, i);
-                    per_ground[i] -= a * if pulls { share } else { share / w2 };
-                    per_slope[i] += if pulls { 0.0 } else { a * share * c / (w2 * w2) };
-                    left[i] += a.abs() * if pulls { 1.0 + c / w } else { 1.0 / w2 };
-                }
-            }
-        }
-        let row: Vec<Lane> = (0..slow).map(|m| std::array::from_fn(|i| row(m, i))).collect();
-        let rows = if pulls { [Vec::new(), row] } else { [row, Vec::new()] };
-        TruncatedBlock { rows, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
+/// The part of a quick mode in a quantity.
+struct Quick {
+    per_ground: f64,
+    per_slope: f64,
+    left: f64,
+}
+
+/// Of an oscillator with these entries of the rows over x and x'.
+fn quick_oscillator(&Mode { w2, w, c, share }: &Mode, (a, b): (f64, f64)) -> Quick {
+    Quick { per_ground: -(a * share / w2), per_slope: (a * c / w2 - b) * share / w2, left: a.abs() / w2 + b.abs() / w }
+}
+
+/// Of a mode with this entry of a row over q, or, where the quantity `pulls`, of one over w^2 q + c q'.
+fn quick_mode(&Mode { w2, w, c, share }: &Mode, entry: f64, pulls: bool) -> Quick {
+    match pulls {
+        true => Quick { per_ground: -(entry / w2 * share), per_slope: 0.0, left: (entry / w2).abs() * (1.0 + c / w) },
+        false => Quick {
+            per_ground: -(entry * (share / w2)),
+            per_slope: entry * share * c / (w2 * w2),
+            left: entry.abs() * (1.0 / w2),
+        },
+    }
+}
+
+/// The rows over the slow modes, as [`TruncatedBlock::rows`].
+fn slow_rows((Block { on_q, on_v }, oscillates): (&Block, bool), slow: &[Mode]) -> [Vec<Lane>; 2] {
+    let first = |rows: &[Lane]| rows.iter().take(slow.len()).copied().collect();
+    match oscillates {
+        true => [first(on_q), first(on_v)],
+        false if on_v.is_empty() => [first(on_q), Vec::new()],
+        false => [Vec::new(), on_q.iter().zip(slow).map(|(row, mode)| row.map(|entry| entry / mode.w2)).collect()],
     }
 }
