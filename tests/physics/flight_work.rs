@@ -1,9 +1,11 @@
 //! The work over a whole flight, found from velocities, against closed forms of other quantities: the energies at both
 //! ends, and what the equation of motion integrates to.
 
-use crate::common::scene;
-use pounding::scene::{Link, Place};
-use pounding::structure::{FlightWork, Interval, LANES, Lane, Scratch, Structure, WorkRoom, dot};
+use crate::common::{self, scene};
+use pounding::scene::{Link, Place, Scene};
+use pounding::structure::{
+    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinkRow, Scratch, Structure, WorkRoom, dot,
+};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
 fn structure([left, right]: [(f64, f64); 2]) -> Structure {
@@ -86,73 +88,126 @@ fn work_of_the_ground_is_that_of_the_equation_of_motion() {
     }
 }
 
-/// Dashpots between storeys, and between the buildings, couple the modes: the balance of energy holds all the same, and the
-/// dashpots of links take what a quadrature of the exact velocities says.
-#[test]
-fn work_of_dashpots_that_couple_modes_balances_the_energy() {
+/// Displacements and velocities.
+type Motion = [Vec<f64>; 2];
+
+const LOADS: [(f64, f64); 4] = [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)];
+
+/// All energies count.
+const ALL: Counts = Counts { above: 0.0, at_most: f64::INFINITY };
+
+/// Pairs of buildings in which dashpots couple the modes: within a building, between buildings, also of so many floors that
+/// the work of a link is a sum over points; and where flights are those of the modes themselves.
+fn coupled() -> Vec<Structure> {
     let mut scene = scene(
         "name = \"Coupled\"\n\
          [left]\nmass = [2.0, 1.0]\nstiffness = [800.0, 300.0]\ndamping = { dashpots = [3.0, 0.0] }\n\
          [right]\nmass = [1.0, 1.5, 0.5]\nstiffness = [500.0, 700.0, 90.0]\ndamping = { ratio = 0.05 }\n",
     );
-    let alone = Structure::of(&scene).ok().unwrap();
+    let structure = |scene: &Scene| Structure::of(scene).ok().unwrap();
+    let alone = structure(&scene);
     let link = |floor: usize, dashpot: f64| {
         let (left, right) = (Some(Place::Floor(floor)), Some(Place::Floor(floor + 1)));
         Link { left, right, stiffness: 40.0, dashpot, slip: None }
     };
     scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];
-    let joined = Structure::of(&scene).ok().unwrap();
+    let joined = structure(&scene);
     // Where a master may push on floors, flights are those of the modes themselves.
     scene.floor_forces = true;
-    let of_modes = Structure::of(&scene).ok().unwrap();
+    let of_modes = structure(&scene);
     assert!(joined.oscillators().is_some() && of_modes.oscillators().is_none());
-    for (structure, length) in
-        [&alone, &joined, &of_modes].into_iter().flat_map(|of| LENGTHS.map(|length| (of, length)))
-    {
-        let work = FlightWork::of(structure, length);
-        let start: [Vec<f64>; 2] = [0.3, -0.5]
-            .map(|size| (0..structure.lanes).map(|m| if m < 5 { size / (m + 1) as f64 } else { 0.0 }).collect());
-        for (a, s) in [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
-            let fly = |time: f64| {
-                let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
-                let load =
-                    [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
-                let mut scratch = Scratch::new(structure.lanes);
-                Interval::new(structure, time).fly(
-                    (&start[0], &start[1]),
-                    (&load[0], &load[1]),
-                    (&mut q, &mut v),
-                    &mut scratch,
-                );
-                [q, v]
-            };
-            let (mut room, mut moving) = (WorkRoom::new(structure), start.clone());
-            if let Some(oscillators) = structure.oscillators() {
-                let [q, v] = &mut moving;
-                oscillators.from_modes((&start[0], &start[1]), (q, v));
-            }
-            let over = work.over_all(structure, (&moving[0], &moving[1]), (a, s), 0.0, &mut room);
-            let dashpots = room.dashpots;
-            let [q, v] = fly(length);
+    let mut tall = common::scene(&format!(
+        "name = \"Tall\"\n[left]\nmass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.05 }}\n\
+         [right]\nmass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.02 }}\n",
+        [1.0; 12], [900.0; 12], [1.5; 13], [700.0; 13]
+    ));
+    tall.links = vec![link(9, 12.0), link(3, 5.0)];
+    vec![alone, joined, of_modes, structure(&tall)]
+}
+
+/// The motion after `time` seconds.
+fn fly(structure: &Structure, start: &Motion, (a, s): (f64, f64), time: f64) -> Motion {
+    let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
+    let load = [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
+    let mut scratch = Scratch::new(structure.lanes);
+    let load = (&load[0][..], &load[1][..]);
+    Interval::new(structure, time).fly((&start[0], &start[1]), load, (&mut q, &mut v), &mut scratch);
+    [q, v]
+}
+
+/// What flights from one motion do under each of the loads, and the work of the dashpots of links.
+fn over_all(structure: &Structure, start: &Motion, length: f64) -> Vec<(FlightEnergy, Vec<f64>)> {
+    let mut moving = start.clone();
+    if let Some(oscillators) = structure.oscillators() {
+        let [q, v] = &mut moving;
+        oscillators.from_modes((&start[0], &start[1]), (q, v));
+    }
+    let mut found = Vec::new();
+    // More than are worked out together, so that each is so beside others.
+    let flights = (11, |k: usize| ((&moving[0][..], &moving[1][..]), LOADS[k % LOADS.len()]));
+    FlightWork::of(structure, length).over_all(
+        structure,
+        flights,
+        ALL,
+        &mut WorkRoom::new(structure),
+        |flight, dashpots| {
+            found.push((*flight, dashpots.to_vec()));
+            ALL
+        },
+    );
+    found
+}
+
+/// Dashpots between storeys, and between the buildings, couple the modes: the balance of energy holds all the same, and the
+/// dashpots of links take what a quadrature of the exact velocities says.
+#[test]
+fn work_of_dashpots_that_couple_modes_balances_the_energy() {
+    for (structure, length) in coupled().iter().flat_map(|of| LENGTHS.map(|length| (of, length))) {
+        let modes = structure.modes_of_both();
+        let start: Motion = [0.3, -0.5]
+            .map(|size| (0..structure.lanes).map(|m| if m < modes { size / (m + 1) as f64 } else { 0.0 }).collect());
+        for (k, (over, dashpots)) in over_all(structure, &start, length).iter().enumerate() {
+            let load = LOADS[k % LOADS.len()];
+            let [q, v] = fly(structure, &start, load, length);
             let (before, after) = (structure.energies(&start[0], &start[1]), structure.energies(&q, &v));
             assert!((over.kinetic - before.0).abs() + (over.strain - before.1).abs() <= 1e-14 * (before.0 + before.1));
             let balance = before.0 + before.1 + over.input - over.viscous - after.0 - after.1;
             let largest = [before.0, before.1, after.0, after.1, over.input.abs()].into_iter().fold(0.0, f64::max);
             assert!(balance.abs() <= rounding(structure, length) * largest, "{length} s: {balance} of {largest} J");
-            for (link, work) in structure.links.iter().zip(&dashpots).filter(|_| length <= 0.02) {
-                let rate = |t: f64| dot(&link.row, &fly(t)[1]);
-                let piece = length / 32.0;
-                let of_piece = |k: usize| -> f64 {
-                    let node = |x: f64| rate(piece * (k as f64 + 0.5 * (1.0 + x))).powi(2);
-                    let far = 0.6_f64.sqrt();
-                    link.dashpot * piece / 18.0 * (5.0 * node(-far) + 8.0 * node(0.0) + 5.0 * node(far))
-                };
-                let exact: f64 = (0..32).map(of_piece).sum();
+            for (link, work) in structure.links.iter().zip(dashpots).filter(|_| k < LOADS.len() && length <= 0.1) {
+                let exact = work_of_dashpot(link, length, |t| fly(structure, &start, load, t));
                 assert!(
                     (work - exact).abs() <= 1e-11 * exact.abs() + 1e-15 * largest,
                     "{length} s: {work} for {exact} J"
                 );
             }
+        }
+    }
+}
+
+/// The work of a dashpot over a motion, by the rule of three points over short pieces.
+fn work_of_dashpot(link: &LinkRow, length: f64, motion: impl Fn(f64) -> Motion) -> f64 {
+    let piece = length / 32.0;
+    let power = |k: usize, x: f64| {
+        let rate = dot(&link.row, &motion(piece * (k as f64 + 0.5 * (1.0 + x)))[1]);
+        link.dashpot * rate * rate
+    };
+    let far = 0.6_f64.sqrt();
+    (0..32).map(|k| piece / 18.0 * (5.0 * power(k, -far) + 8.0 * power(k, 0.0) + 5.0 * power(k, far))).sum()
+}
+
+/// How much energy counts decides only whether it is worked out, and how many flights are worked out together nothing.
+#[test]
+fn flights_side_by_side_do_not_change_each_other() {
+    for structure in coupled() {
+        let modes = structure.modes_of_both();
+        let start =
+            [0.2, 0.7].map(|size: f64| (0..structure.lanes).map(|m| if m < modes { size } else { 0.0 }).collect());
+        let all = over_all(&structure, &start, 0.02);
+        for (k, (flight, dashpots)) in all.iter().enumerate() {
+            let (first, of_first) = &all[k % LOADS.len()];
+            let bits = |of: &FlightEnergy| [of.input, of.viscous, of.kinetic, of.strain].map(f64::to_bits);
+            assert_eq!((bits(flight), dashpots), (bits(first), of_first), "flight {k}");
         }
     }
 }
