@@ -175,7 +175,8 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
             let largest = [before.0, before.1, after.0, after.1, over.input.abs()].into_iter().fold(0.0, f64::max);
             assert!(balance.abs() <= rounding(structure, length) * largest, "{length} s: {balance} of {largest} J");
             for (link, work) in structure.links.iter().zip(dashpots).filter(|_| k < LOADS.len() && length <= 0.1) {
-                let exact = work_of_dashpot(link, length, |t| fly(structure, &start, load, t));
+                let pieces = (structure.fastest * length / 0.05).ceil().clamp(8.0, 128.0);
+                let exact = work_of_dashpot(link, (length, pieces as usize), |t| fly(structure, &start, load, t));
                 assert!(
                     (work - exact).abs() <= 1e-11 * exact.abs() + 1e-15 * largest,
                     "{length} s: {work} for {exact} J"
@@ -186,14 +187,14 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
 }
 
 /// The work of a dashpot over a motion, by the rule of three points over short pieces.
-fn work_of_dashpot(link: &LinkRow, length: f64, motion: impl Fn(f64) -> Motion) -> f64 {
-    let piece = length / 32.0;
+fn work_of_dashpot(link: &LinkRow, (length, pieces): (f64, usize), motion: impl Fn(f64) -> Motion) -> f64 {
+    let piece = length / pieces as f64;
     let power = |k: usize, x: f64| {
         let rate = dot(&link.row, &motion(piece * (k as f64 + 0.5 * (1.0 + x)))[1]);
         link.dashpot * rate * rate
     };
     let far = 0.6_f64.sqrt();
-    (0..32).map(|k| piece / 18.0 * (5.0 * power(k, -far) + 8.0 * power(k, 0.0) + 5.0 * power(k, far))).sum()
+    (0..pieces).map(|k| piece / 18.0 * (5.0 * power(k, -far) + 8.0 * power(k, 0.0) + 5.0 * power(k, far))).sum()
 }
 
 /// How much energy counts decides only whether it is worked out, and how many flights are worked out together nothing.
