@@ -51,6 +51,8 @@ mass = 90
 inertia = 2000
 rocking = { stiffness = 12e6 }
 """
+# The example ends with its outputs.
+NO_PEAKS = "peaks = false\n"
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
 
 
@@ -64,7 +66,8 @@ def main():
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
         pages = [(has_levels, "neighbours", ""), (stands_alone, "isolated", ""), (yields, "yielding", "")]
-        for look, name, more in [*pages, (is_linked, "yielding", LINKS), (stands_on_soil, "yielding", SOIL)]:
+        pages += [(is_linked, "yielding", LINKS), (stands_on_soil, "yielding", SOIL), (has_no_peaks, "yielding", NO_PEAKS + SOIL)]
+        for look, name, more in pages:
             page.set_viewport_size({"width": 1300, "height": 900})
             html, _, impacts = make_report(name, more)
             page.goto(html.as_uri())
@@ -334,6 +337,13 @@ def stands_on_soil(page, impacts):
         storey = figure.locator("figcaption").inner_text().split(":")[0]
         assert abs(float(figure.locator("text").all_text_contents()[2]) / peak[storey] - 1.0) < 1e-2, (storey, peak)
     page.screenshot(path=FOLDER / "soil.png", full_page=True)
+
+
+def has_no_peaks(page, impacts):
+    """By how much the soil slows the buildings is said without peaks, too."""
+    headings, rows = table(page, "foundation")
+    assert headings == ["foundation", "first period / on a fixed base"] and len(rows) == 2, (headings, rows)
+    assert page.locator("#foundations").is_visible() and not page.locator("#peaks").is_visible()
 
 
 if __name__ == "__main__":
