@@ -2,7 +2,7 @@
 
 use crate::common::{Run, record};
 use crate::devices::{between, bits, linked, of_link, shaken, slipping, to_wall};
-use pounding::engine::{LinkOutput, SavedState, Side};
+use pounding::engine::{LinkOutput, Output, Point, SavedState, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -113,4 +113,41 @@ fn states_of_other_links_are_refused() {
         assert_refused(&shaken(scene, &shaking()), &saved, what);
     }
     run.model.check_saved(&saved).unwrap();
+}
+
+/// A state of oscillators is refused where damping couples no modes, so that none move.
+#[test]
+fn oscillators_that_a_scene_does_not_have_are_refused() {
+    let (law, free) =
+        ("law = \"linear\"\nstiffness = 1e7", "mass = [4e4]\nstiffness = [3e7]\ndamping = { ratio = 0.03 }");
+    let buildings =
+        format!("[left]\n{free}\n[right]\n{free}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 1.0\n{law}\n");
+    for (links, is_taken) in [(vec![between(1, 1, 0.0, 1e5)], true), (vec![], false)] {
+        let mut run = shaken(linked(&buildings, &links), &shaking());
+        run.to(1.0);
+        let mut told = serde_json::to_value(run.save()).unwrap();
+        told["base"]["oscillates"] = true.into();
+        let forged: SavedState = serde_json::from_value(told).unwrap();
+        assert_eq!(run.model.check_saved(&forged).is_ok(), is_taken, "{links:?}");
+    }
+}
+
+/// What a point has worked out for one model is nothing to another of the same size.
+#[test]
+fn a_point_reads_one_model_after_another() {
+    let buildings = "[left]\nmass = [4e4]\nstiffness = [3e7]\ndamping = { ratio = 0.03 }\n\
+                     [right]\nmass = [3e4]\nstiffness = [5e7]\ndamping = { ratio = 0.05 }\n";
+    let scenes =
+        [vec![], vec![between(1, 1, 1e6, 1e5)], vec![between(1, 1, 1e6, 1e5), to_wall(Side::Left, 1, 0.0, 2e5)]];
+    let mut runs = scenes.map(|links| shaken(linked(buildings, &links), &shaking()));
+    let mut point = Point::default();
+    for (links, run) in runs.iter_mut().enumerate() {
+        // Within a sample, so that the work since its start is read.
+        run.to(1.01);
+        let own = run.model.observe(&run.state, &mut point);
+        let read: Vec<f64> =
+            (0..links).map(|link| own.read(Output::Link(link, LinkOutput::DissipatedEnergy))).collect();
+        let expected: Vec<f64> = (0..links).map(|link| of_link(run, link, LinkOutput::DissipatedEnergy)).collect();
+        assert!(read == expected && read.iter().all(|energy| *energy > 0.0), "{read:?} instead of {expected:?}");
+    }
 }

@@ -3,9 +3,7 @@
 
 use crate::common::{self, scene};
 use pounding::scene::{Link, Place, Scene};
-use pounding::structure::{
-    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinkRow, Scratch, Structure, WorkRoom, dot,
-};
+use pounding::structure::{Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, Scratch, Structure, WorkRoom, dot};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
 fn structure([left, right]: [(f64, f64); 2]) -> Structure {
@@ -174,27 +172,45 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
             let balance = before.0 + before.1 + over.input - over.viscous - after.0 - after.1;
             let largest = [before.0, before.1, after.0, after.1, over.input.abs()].into_iter().fold(0.0, f64::max);
             assert!(balance.abs() <= rounding(structure, length) * largest, "{length} s: {balance} of {largest} J");
-            for (link, work) in structure.links.iter().zip(dashpots).filter(|_| k < LOADS.len() && length <= 0.1) {
-                let pieces = (structure.fastest * length / 0.05).ceil().clamp(8.0, 128.0);
-                let exact = work_of_dashpot(link, (length, pieces as usize), |t| fly(structure, &start, load, t));
-                assert!(
-                    (work - exact).abs() <= 1e-11 * exact.abs() + 1e-15 * largest,
-                    "{length} s: {work} for {exact} J"
-                );
+            if k < LOADS.len() && length <= 0.1 {
+                let exact = work_of_dashpots(structure, &start, load, length);
+                for (work, exact) in dashpots.iter().zip(exact) {
+                    assert!(
+                        (work - exact).abs() <= 1e-11 * exact.abs() + 1e-15 * largest,
+                        "{length} s: {work} for {exact} J"
+                    );
+                }
             }
         }
     }
 }
 
-/// The work of a dashpot over a motion, by the rule of three points over short pieces.
-fn work_of_dashpot(link: &LinkRow, (length, pieces): (f64, usize), motion: impl Fn(f64) -> Motion) -> f64 {
-    let piece = length / pieces as f64;
-    let power = |k: usize, x: f64| {
-        let rate = dot(&link.row, &motion(piece * (k as f64 + 0.5 * (1.0 + x)))[1]);
-        link.dashpot * rate * rate
+/// The work of each link's dashpot over a flight, by Romberg's rule over the powers at equally spaced times.
+fn work_of_dashpots(structure: &Structure, start: &Motion, (a, s): (f64, f64), length: f64) -> Vec<f64> {
+    const HALVINGS: usize = 8;
+    let h = length / f64::from(1 << HALVINGS);
+    let mut motion = start.clone();
+    let mut powers = vec![Vec::new(); structure.links.len()];
+    for k in 0..=1 << HALVINGS {
+        for (link, powers) in structure.links.iter().zip(&mut powers) {
+            powers.push(link.dashpot * dot(&link.row, &motion[1]).powi(2));
+        }
+        motion = fly(structure, &motion, (a + s * h * f64::from(k), s), h);
+    }
+    let romberg = |powers: &Vec<f64>| {
+        let trapezoids = |halvings: usize| {
+            let every = 1 << (HALVINGS - halvings);
+            let inner: f64 = powers.iter().step_by(every).sum();
+            (inner - 0.5 * (powers[0] + powers[1 << HALVINGS])) * length / f64::from(1 << halvings)
+        };
+        let mut row: Vec<f64> = (0..=HALVINGS).map(trapezoids).collect();
+        for order in 1..=HALVINGS {
+            let four = f64::powi(4.0, order as i32);
+            row = row.windows(2).map(|pair| (four * pair[1] - pair[0]) / (four - 1.0)).collect();
+        }
+        row[0]
     };
-    let far = 0.6_f64.sqrt();
-    (0..pieces).map(|k| piece / 18.0 * (5.0 * power(k, -far) + 8.0 * power(k, 0.0) + 5.0 * power(k, far))).sum()
+    powers.iter().map(romberg).collect()
 }
 
 /// How much energy counts decides only whether it is worked out, and how many flights are worked out together nothing.

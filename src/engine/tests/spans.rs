@@ -4,13 +4,15 @@
 use super::motions::Random;
 use crate::engine::Model;
 use crate::engine::base::Coordinates;
+use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::flights::{Flights, Load, set_energies};
 use crate::engine::bounds::span::{ModeSizes, PART, Span};
+use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::flight::log::FlightLog;
-use crate::engine::quantities::rows::{PeakOf, values_of};
+use crate::engine::quantities::rows::{Block, PeakOf, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES};
+use crate::structure::{Interval, LANES, Lane, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -103,7 +105,7 @@ impl Case {
     /// The motion at a time of flight `k`, s.
     fn within(&self, k: usize, time: f64) -> (Vec<f64>, Vec<f64>) {
         let (system, lanes) = (&self.model.system, self.model.system.structure.lanes);
-        let (flights, mut scratch) = (self.flights(), crate::structure::Scratch::new(lanes));
+        let (flights, mut scratch) = (self.flights(), Scratch::new(lanes));
         let [mut load, mut rate, mut q, mut v] = [(); 4].map(|()| vec![0.0; lanes]);
         let Load { acceleration, slope, .. } = flights.load(k);
         system.load_in_flight((acceleration, slope), &mut load, &mut rate);
@@ -238,4 +240,71 @@ fn no_quantity_passes_its_bounds_over_a_span() {
     assert!(nearest.iter().all(|nearest| *nearest < 1.01), "no bound comes within a hundredth: {nearest:?}");
     assert!(oscillating > 2, "{oscillating} bodies with quick oscillators");
     assert!(truncated > 5, "{truncated} buildings with quick modes");
+}
+
+/// One mode or oscillator that swings alone, about the quasi-static displacement under a load that changes: there the bound by
+/// envelopes is nearly reached, whatever part of a quantity is read from displacements and from rates.
+#[test]
+fn no_quantity_leaves_its_envelope() {
+    let mut random = Random(32);
+    let (mut nearest, mut by_rates) = (0.0_f64, 0);
+    for (storeys, is_linked) in [([1, 2], true), ([3, 2], true), ([2, 4], false)] {
+        let case = Case::new(&mut random, storeys, (12.0, 0.05), (false, is_linked));
+        let structure = case.model.system.structure.in_flight();
+        for (rows, mode) in
+            case.model.flight_rows().bodies.iter().flat_map(|rows| rows.modes.clone().map(move |m| (rows, m)))
+        {
+            let ground = [(0.0, 0.0), (1.0, 0.0), (0.5, random.between(-9.0, 9.0))];
+            let (a, s) = random.one_of(&ground);
+            let [mut load, mut slope, mut q, mut v] = [(); 4].map(|()| vec![0.0; structure.lanes]);
+            case.model.system.load_in_flight((a, s), &mut load, &mut slope);
+            for m in rows.modes.clone() {
+                let (w2, c) = (structure.omega2[m], structure.damping[m]);
+                (q[m], v[m]) = ((load[m] - c * slope[m] / w2) / w2, slope[m] / w2);
+            }
+            let angle = random.between(0.0, 6.3);
+            (q[mode], v[mode]) = (q[mode] + angle.cos(), v[mode] + structure.omega2[mode].sqrt() * angle.sin());
+            let length = random.between(1.0, 2.0) * std::f64::consts::TAU / structure.omega2[mode].sqrt();
+            let of_block =
+                |block: &Block, q: &[f64], v: &[f64]| values_of(block, &q[rows.modes.clone()], &v[rows.modes.clone()]);
+            let mut reached = vec![[0.0_f64; LANES]; rows.blocks.len()];
+            let mut end = [q.clone(), v.clone()];
+            for k in 0..=512 {
+                let [end_q, end_v] = &mut end;
+                let time = length * f64::from(k) / 512.0;
+                Interval::new(structure, time).fly(
+                    (&q, &v),
+                    (&load, &slope),
+                    (end_q, end_v),
+                    &mut Scratch::new(structure.lanes),
+                );
+                for (block, reached) in rows.blocks.iter().zip(&mut reached) {
+                    let values = of_block(block, end_q, end_v);
+                    (0..LANES).for_each(|i| reached[i] = reached[i].max(values[i].abs()));
+                }
+            }
+            let stretch = Stretch {
+                start: (&q, &v),
+                end: (&end[0], &end[1]),
+                loads: (&load, &slope),
+                rest: &[],
+                ground: (a, s),
+                length,
+                is_suspect: false,
+                whole: None,
+            };
+            let mut bounds = ModeBounds::new(structure.lanes);
+            bounds.set(structure, rows.modes.clone(), &stretch, &mut vec![0.0; structure.lanes]);
+            for (block, reached) in rows.blocks.iter().zip(reached) {
+                let below = |peaks: &Lane| stay_below(peaks, (block, &[0.0; LANES]), (&bounds, &rows.modes), None);
+                for i in (0..LANES).filter(|i| reached[*i] > 0.0) {
+                    let all = |peak: f64| below(&[peak; LANES])[i];
+                    assert!(!all(reached[i] * (1.0 - 1e-9)), "{mode}: {} is left", reached[i]);
+                    nearest = nearest.max(if all(1.02 * reached[i]) { 1.0 } else { 0.0 });
+                    by_rates += usize::from(block.on_v.iter().any(|row| row[i] != 0.0));
+                }
+            }
+        }
+    }
+    assert!(nearest > 0.0 && by_rates > 50, "{nearest}, {by_rates} quantities with rates");
 }
