@@ -346,10 +346,10 @@ impl System {
         done: &mut Work,
     ) {
         let Buffers { node_q, node_v, v: damped, force_slope, powers, account, .. } = work;
-        let WorkRoom { dashpots, modal, .. } = account;
+        // Oscillators move in flights only, which have their nodes side by side: here move modes, or floors.
         for (t, weight) in nodes {
             motion(t, powers, node_q, node_v);
-            let (_, v) = self.motion_of_modes((base.oscillates, node_q, node_v), modal);
+            let (dashpots, v) = (&mut account.dashpots, &*node_v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let (momentum, viscous) = match base.coordinates {
                 Coordinates::Modes => (dot(&self.structure.participation, v), self.structure.viscous_power(v)),

@@ -117,7 +117,7 @@ fn coupled() -> Vec<Structure> {
     let mut tall = common::scene(&format!(
         "name = \"Tall\"\n[left]\nmass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.05 }}\n\
          [right]\nmass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.02 }}\n",
-        [1.0; 12], [900.0; 12], [1.5; 13], [700.0; 13]
+        [1.0; 24], [1600.0; 24], [1.5; 25], [700.0; 25]
     ));
     tall.links = vec![link(9, 12.0), link(3, 5.0)];
     vec![alone, joined, of_modes, structure(&tall)]
