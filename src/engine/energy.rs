@@ -248,6 +248,22 @@ impl System {
         (work.q, work.v) = (q, v);
     }
 
+    /// Work over a flight of any length without forces on the floors, as over whole segments.
+    fn integrate_long_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
+        let counts = Counts { above: f64::INFINITY, at_most: 0.0 };
+        let load = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let flight = |_| ((&base.q[..], &base.v[..]), load);
+        let of_length = FlightWork::of(&self.structure, length);
+        of_length.over_all(&self.structure, (1, flight), counts, &mut work.account, |flight, _| {
+            done.input += flight.input;
+            done.viscous += flight.viscous;
+            counts
+        });
+        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        self.fly(base, length, work, (&mut q, &mut v));
+        (work.q, work.v) = (q, v);
+    }
+
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
@@ -282,7 +298,11 @@ impl System {
         let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         if length > self.longest_pieces() {
-            return self.integrate_quiet_flight(base, work, length, done);
+            let largest = base.energy.map_or(0.0, |account| account.largest);
+            return match self.is_quiet(base, (&work.load, &work.slope), largest) {
+                true => self.integrate_quiet_flight(base, work, length, done),
+                false => self.integrate_long_flight(base, work, length, done),
+            };
         }
         work.q.copy_from_slice(&base.q);
         work.v.copy_from_slice(&base.v);

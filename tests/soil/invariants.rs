@@ -243,3 +243,35 @@ fn dashpots_so_heavy_that_modes_of_the_whole_are_overdamped() {
         assert_same_motion(&scene, &shaking(), &times, 1e-10);
     }
 }
+
+/// A dashpot beyond any soil, 1e8 1/s times the inertia, keeps the foundation from rocking: the building is one whose foundation
+/// sways only. Peaks and energies within steps, which are long for such a dashpot, take a moment for all that.
+#[test]
+fn a_dashpot_that_keeps_the_foundation_from_rocking() {
+    let run = |rocking: &str| {
+        let sway = "sway = { stiffness = 9e7, dashpot = 1.5e6 }\n";
+        let scene = frame("damping = { dashpots = [2e5, 1e5] }\n", &foundation(&format!("{sway}{rocking}")));
+        Run::new(&scene, Some(&shaking()))
+    };
+    let mut held = run("");
+    let mut rocking = run("inertia = 3e5\nrocking = { stiffness = 1.2e9, dashpot = 3e13 }\n");
+    let peaks = |run: &Run| {
+        let of_floors =
+            [0, 1].map(|i| [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration].map(|of| of(Side::Left, i)));
+        of_floors.concat().into_iter().map(|of| run.peak(of)).collect::<Vec<_>>()
+    };
+    for k in 1..=10 {
+        // Also within samples.
+        [&mut held, &mut rocking].map(|run| run.to(0.0703 * f64::from(k)));
+        for (expected, peak) in peaks(&held).into_iter().zip(peaks(&rocking)) {
+            assert!((peak - expected).abs() <= 1e-5 * expected, "{k}: {peak} instead of {expected}");
+        }
+        let [expected, energy] = [held.energy(), rocking.energy()];
+        for (got, expected) in [(energy.viscous, expected.viscous), (energy.input, expected.input)] {
+            // A moment M of 1 MN m loses M^2 / c, some hundredths of a watt.
+            assert!((got - expected).abs() <= 1e-4 * expected.abs(), "{k}: {got} J instead of {expected}");
+        }
+        assert!(energy.residual.abs() < 1e-9, "{k}: {energy:?}");
+    }
+    assert!(rocking.state.counters().energy_steps < 1000, "{:?}", rocking.state.counters());
+}

@@ -21,11 +21,14 @@ impl System {
     }
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
-    /// pieces for the energy account, unless nothing is left to integrate.
+    /// pieces for the energy account, unless nothing is left to integrate or the work over the whole segment has been prepared.
     pub fn accounted_flight(&self, base: &Base, loads: (&[f64], &[f64]), length: f64) -> f64 {
         let most = self.longest_pieces();
+        let is_whole = base.elapsed == 0.0 && length == base.segment.length;
+        let watched = self.watched_segment(base).filter(|_| is_whole);
+        let is_prepared = watched.is_some_and(|(ground, _)| ground.work_over(length).is_some());
         match &base.energy {
-            Some(account) if length > most && !self.is_quiet(base, loads, account.largest) => most,
+            Some(account) if length > most && !is_prepared && !self.is_quiet(base, loads, account.largest) => most,
             _ => length,
         }
     }
@@ -34,7 +37,7 @@ impl System {
     /// prepared.
     pub fn is_accounted_at_once(&self, ground: &GroundMotion, base: &Base) -> bool {
         let Segment { length, .. } = base.segment;
-        base.energy.is_none() || length <= self.longest_pieces() && ground.work_over(length).is_some()
+        base.energy.is_none() || ground.work_over(length).is_some()
     }
 
     /// Length of the longest flight that is integrated in one step, s.
@@ -44,7 +47,7 @@ impl System {
 
     /// Whether damping dissipates nothing from now on: there is none, or the oscillation about the static displacement
     /// has died out.
-    fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
+    pub fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
         if slope.iter().any(|slope| *slope != 0.0) {
             return false;
         }

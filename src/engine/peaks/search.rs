@@ -92,15 +92,14 @@ impl Model {
         }
         if are_any_left(suspects) && self.system.structure.in_flight().fastest * (to - from) > LONG && halvings > 0 {
             self.clear_by_amplitudes(flight, piece, suspects, work);
+            self.clear_by_chords(flight, piece, until, suspects, work);
             if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_piece(flight, half, until, suspects, work));
             }
         } else if are_any_left(suspects) {
             self.search_leaves(flight, piece, until, suspects, work);
         }
-        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(halvings)) {
-            suspect.cleared_in = None;
-        }
+        open_again(suspects, halvings);
     }
 
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at the ends of all leaves
@@ -111,7 +110,11 @@ impl Model {
             return;
         }
         if reach > LEAVES as f64 * REACH && piece.halvings > 0 {
-            piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
+            self.clear_by_chords(flight, piece, until, suspects, work);
+            if are_any_left(suspects) {
+                piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
+            }
+            open_again(suspects, piece.halvings);
             return;
         }
         let (count, times) = piece.leaves(reach);
@@ -128,8 +131,8 @@ impl Model {
         }
     }
 
-    /// Searches leaf `k`. A quantity deviates from its chord by at most h^2/8 max|y''|; it is monotonic if its ends differ by
-    /// more than 4 times that. For those that are left the cubics through both ends are read, and only then the series.
+    /// Searches leaf `k`. For the quantities that chords do not clear the cubics through both ends are read, and only then the
+    /// series.
     fn search_leaf(
         &self,
         flight: &Stretch,
@@ -138,22 +141,34 @@ impl Model {
         suspects: &mut [Suspect],
         work: &mut PeakWork,
     ) {
-        let length = leaf[1] - leaf[0];
-        let sag = 0.125 * length * length * (1.0 + 1e-9);
-        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-            let (start, end, sag) = (suspect.values[k], suspect.values[k + 1], sag * suspect.bend);
-            let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
-            suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(OF_LEAF);
-        }
+        clear_chords(suspects, [k, k + 1], leaf[1] - leaf[0], OF_LEAF);
         if are_any_left(suspects) {
             self.clear_by_cubics(flight, (k, leaf), suspects, work);
         }
         if are_any_left(suspects) {
             self.read_leaf(flight, leaf, until, suspects, work);
         }
-        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(OF_LEAF)) {
-            suspect.cleared_in = None;
+        open_again(suspects, OF_LEAF);
+    }
+
+    /// Raises peaks to the values at both ends of a piece, and clears the quantities that do not turn above theirs in between: a
+    /// piece of many leaves in which dashpots are fast and the motion is slow.
+    fn clear_by_chords(
+        &self,
+        flight: &Stretch,
+        piece: Piece,
+        until: f64,
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
+        for (k, time) in [piece.from, piece.to].into_iter().enumerate() {
+            self.fly_to(flight, time, [2, 3], work);
+            self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
+                suspect.values[k] = value;
+                suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
+            });
         }
+        clear_chords(suspects, [0, 1], piece.to - piece.from, piece.halvings);
     }
 
     /// Calls a function with each quantity that is left and its value at a time of a flight, at which two of the vectors
@@ -432,6 +447,24 @@ fn bend_of(block: &Block, energy: &[f64], over_w: &[f64]) -> Lane {
 
 fn are_of_one_block(one: &Suspect, next: &Suspect) -> bool {
     one.place / LANES == next.place / LANES
+}
+
+/// Clears the quantities that do not turn above their peaks between two of their values that are `length` seconds apart: one
+/// deviates from its chord by at most h^2/8 max|y''|, and is monotonic if its ends differ by more than 4 times that.
+fn clear_chords(suspects: &mut [Suspect], [from, to]: [usize; 2], length: f64, piece: u32) {
+    let sag = 0.125 * length * length * (1.0 + 1e-9);
+    for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+        let (start, end, sag) = (suspect.values[from], suspect.values[to], sag * suspect.bend);
+        let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
+        suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(piece);
+    }
+}
+
+/// Opens the quantities again that were cleared in a piece.
+fn open_again(suspects: &mut [Suspect], piece: u32) {
+    for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(piece)) {
+        suspect.cleared_in = None;
+    }
 }
 
 /// Whether any quantity may exceed its peak in the piece that is searched.
