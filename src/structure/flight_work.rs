@@ -12,7 +12,7 @@ use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
 use super::propagator::ModeIncrement;
-use super::series::NodeRoom;
+use super::series::power::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
 use nalgebra::{Matrix4, Vector4};
 

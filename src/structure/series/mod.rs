@@ -1,7 +1,7 @@
 //! Power series in time of all modes, or of all floors: the dense solution of a step.
 
 pub(super) mod expand;
-mod power;
+pub(super) mod power;
 mod project;
 pub(super) mod sums;
 
@@ -10,7 +10,6 @@ use crate::numerics::polynomial::{MAX_TERMS, SECOND};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
 use crate::numerics::time_map::TimeMap;
-pub(super) use power::NodeRoom;
 use project::{dot_each, project};
 use std::ops::Range;
 use sums::{sum_sizes, sum_terms};
