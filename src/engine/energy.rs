@@ -47,19 +47,15 @@ impl Account {
     }
 }
 
-/// Largest number of flights that wait for the energy account.
-const MOST_WAITING: usize = 32;
+/// Size of the log of flights that wait for the energy account, a gap included.
+const MOST_WAITING: usize = 33;
 
 impl Model {
-    /// Whether flights wait until their work is added to the energy account: where damping couples modes.
-    pub(super) fn accounts_later(&self) -> bool {
-        self.energy && self.system.ground.is_some() && !self.system.structure.is_classical()
-    }
-
-    /// A log for them.
+    /// A log for flights whose work is added to the energy account later: where damping couples modes.
     pub(super) fn waiting(&self) -> FlightLog {
-        let most = if self.accounts_later() { MOST_WAITING } else { 0 };
-        FlightLog::with_room((self.system.structure.lanes, 0), most)
+        let System { ground, structure, .. } = &self.system;
+        let waits = self.energy && ground.is_some() && !structure.is_classical();
+        FlightLog::with_room((structure.lanes, 0), if waits { MOST_WAITING } else { 0 })
     }
 }
 
@@ -116,7 +112,7 @@ impl System {
                 base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
                 return;
             }
-            if work.waiting.room() == 0 {
+            if work.waiting.is_full() {
                 self.settle(base, work);
             }
             let load = Load { acceleration: load.0, slope: load.1, length };

@@ -182,7 +182,7 @@ impl Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, model.system.limits()),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
-            peaks: model.peak_room(log.room()),
+            peaks: model.peak_room(log.capacity()),
             log,
             waiting: model.waiting(),
             switches: None,

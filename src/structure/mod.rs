@@ -32,6 +32,7 @@ mod base_shear;
 mod block_increments;
 mod bodies;
 mod complex_modes;
+mod coupled_rates;
 mod coupled_work;
 mod equations;
 mod first_mode;

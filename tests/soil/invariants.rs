@@ -262,7 +262,9 @@ fn a_dashpot_that_keeps_the_foundation_from_rocking() {
     };
     for k in 1..=10 {
         // Also within samples.
-        [&mut held, &mut rocking].map(|run| run.to(0.0703 * f64::from(k)));
+        for run in [&mut held, &mut rocking] {
+            run.to(0.0703 * f64::from(k));
+        }
         for (expected, peak) in peaks(&held).into_iter().zip(peaks(&rocking)) {
             assert!((peak - expected).abs() <= 1e-5 * expected, "{k}: {peak} instead of {expected}");
         }

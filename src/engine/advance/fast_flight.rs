@@ -9,7 +9,6 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
 use crate::engine::flight::log::{FlightLog, Logged};
 use crate::engine::model::Model;
-use crate::engine::peaks::LEFT;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
 use crate::structure::{LANES, Lane};
@@ -73,31 +72,21 @@ impl Model {
         segments: Range<u64>,
         until: f64,
     ) -> u64 {
-        if self.logs_flights() && work.log.room() <= LEFT {
+        if work.log.is_full() {
             let (log, mut peaks) = work.for_log();
             self.fold_log(base, (log, &mut peaks));
         }
-        if self.accounts_later() && work.waiting.room() == 0 {
+        if work.waiting.is_full() {
             self.system.settle(base, work);
         }
-        let Workspace { log, waiting, .. } = work;
-        let logs = [(log, self.logs_flights(), LEFT), (waiting, self.accounts_later(), 0)];
-        let mut logs = logs.map(|(log, is_kept, left)| is_kept.then_some((log, left)));
-        let room = logs.iter().flatten().map(|(log, left)| (log.room() - left) as u64).min().unwrap_or(u64::MAX);
+        let mut logs = [&mut work.log, &mut work.waiting].map(|log| Some(log).filter(|log| log.is_kept()));
+        let room = logs.iter().flatten().map(|log| log.room() as u64).min().unwrap_or(u64::MAX);
         let segments = segments.start..segments.end.min(segments.start.saturating_add(room));
-        let before = logs.each_ref().map(|log| log.as_ref().map_or(0, |(log, _)| log.count()));
-        let flown = fly_over(
-            self,
-            ground,
-            (base, step),
-            segments,
-            until,
-            logs.each_mut().map(|log| log.as_mut().map(|(log, _)| &mut **log)),
-        );
+        let before = logs.each_ref().map(|log| log.as_ref().map_or(0, |log| log.count()));
+        let lent = logs.each_mut().map(|log| log.as_deref_mut());
+        let flown = fly_over(self, ground, (base, step), segments, until, lent);
         for (log, before) in logs.into_iter().zip(before) {
-            if let Some((log, _)) = log {
-                log.truncate(before + flown as usize);
-            }
+            log.into_iter().for_each(|log| log.truncate(before + flown as usize));
         }
         flown
     }

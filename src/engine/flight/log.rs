@@ -84,9 +84,24 @@ impl FlightLog {
         self.loads.len()
     }
 
-    /// Number of entries that still fit.
+    /// Whether anything is logged at all.
+    pub fn is_kept(&self) -> bool {
+        self.most > 0
+    }
+
+    /// Largest number of entries.
+    pub fn capacity(&self) -> usize {
+        self.most
+    }
+
+    /// Number of flights that still fit, with a gap after them.
     pub fn room(&self) -> usize {
-        self.most - self.loads.len()
+        (self.most - self.loads.len()).saturating_sub(1)
+    }
+
+    /// Whether no flight fits any more.
+    pub fn is_full(&self) -> bool {
+        self.is_kept() && self.room() == 0
     }
 
     /// Whether the last flight ends at the base.

@@ -99,7 +99,7 @@ impl Model {
     ) {
         ahead.forget();
         let FlightsAhead { log, rest, survivors, .. } = ahead;
-        if log.room() == 0 {
+        if !log.is_kept() {
             *log = FlightLog::with_room((self.system.structure.lanes, 0), AHEAD + 1);
         }
         let is_flight = self.system.is_in_flight(base) && base.elapsed == 0.0 && !base.is_forced();

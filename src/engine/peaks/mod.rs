@@ -36,9 +36,6 @@ use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::Step;
 
-/// Entries of the log that are kept free: a flight may bring a gap after it.
-pub const LEFT: usize = 1;
-
 /// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
 const WORTH_FOLDING: usize = 128;
 
@@ -82,7 +79,7 @@ impl Model {
         inputs: &Inputs,
         (log, mut work): (&mut FlightLog, PeakWork),
     ) {
-        if log.room() <= LEFT {
+        if log.is_full() {
             self.fold_log(base, (log, &mut work));
         }
         let (motion, acceleration) = ((&base.q[..], &base.v[..]), base.segment.acceleration_at(base.elapsed));
