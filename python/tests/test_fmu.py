@@ -117,7 +117,7 @@ def test_a_run_ends_where_that_of_the_command_does():
     assert pounding_fmu.simulate(fmus.without_record().replace("stop_time = 20.0", ""))["time"][-1] == 10.0
 
 
-@pytest.mark.parametrize("name", ["feup", "isolated", "leaning", "neighbours", "offices", "two_blocks", "yielding"])
+@pytest.mark.parametrize("name", ["feup", "isolated", "leaning", "neighbours", "offices", "on_soil", "two_blocks", "yielding"])
 def test_bytes_are_those_of_cargo_fmu(tmp_path, name):
     of_cargo = (fmus.REFERENCES / f"{name}.fmu").read_bytes()
     scene = pounding_fmu.example_scene.with_name(f"{name}.toml")

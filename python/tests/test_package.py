@@ -85,7 +85,7 @@ def test_it_is_there_at_once_and_without_numpy():
 def test_data():
     data = pounding_fmu.example_scene.parent.parent
     assert {file.name for file in (data / "scenes").iterdir()} >= {
-        f"{name}.toml" for name in ["feup", "isolated", "leaning", "neighbours", "offices", "two_blocks", "yielding"]
+        f"{name}.toml" for name in ["feup", "isolated", "leaning", "neighbours", "offices", "on_soil", "two_blocks", "yielding"]
     }
     for scene in (data / "scenes").iterdir():
         assert pounding_fmu.problems(scene) == []

@@ -10,7 +10,6 @@ use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::accounted::MOST_PIECES;
 use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
-use crate::engine::state::Workspace;
 use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -49,6 +48,9 @@ impl Account {
 
 /// Size of the log of flights that wait for the energy account, a gap included.
 const MOST_WAITING: usize = 33;
+
+/// The flights that wait for the energy account, and scratch memory.
+pub(super) type Accounting<'a> = (&'a mut FlightLog, &'a mut Buffers);
 
 impl Model {
     /// A log for flights whose work is added to the energy account later: where damping couples modes.
@@ -98,7 +100,7 @@ impl System {
 
     /// Adds the work of a step to the account of the base. Where damping couples modes, flights over whole segments wait
     /// until several can be added at a time.
-    pub(super) fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Workspace) {
+    pub(super) fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, (waiting, work): Accounting) {
         if base.energy.is_none() {
             return;
         }
@@ -112,15 +114,14 @@ impl System {
                 base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
                 return;
             }
-            if work.waiting.is_full() {
-                self.settle(base, work);
+            if waiting.is_full() {
+                self.settle(base, (waiting, work));
             }
             let load = Load { acceleration: load.0, slope: load.1, length };
-            work.waiting.push((&base.q, &base.v), load);
+            waiting.push((&base.q, &base.v), load);
             return;
         }
-        self.settle(base, work);
-        let work = &mut work.buffers;
+        self.settle(base, (waiting, work));
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
@@ -135,10 +136,10 @@ impl System {
     }
 
     /// Adds the work of the flights that wait to the account of the base.
-    pub(super) fn settle(&self, base: &mut Base, Workspace { waiting, buffers, .. }: &mut Workspace) {
+    pub(super) fn settle(&self, base: &mut Base, (waiting, work): Accounting) {
         let impact = base.dissipated_by_contacts();
         if let Some(account) = &mut base.energy {
-            self.add_waiting(waiting, impact, (account, &mut base.dashpots), &mut buffers.account);
+            self.add_waiting(waiting, impact, (account, &mut base.dashpots), &mut work.account);
             waiting.truncate(0);
         }
     }

@@ -67,7 +67,7 @@ impl Model {
     /// The data from which [`Model::restore`] brings the state back. The peaks in it are those of all steps so far, which the
     /// state keeps, too; nothing else of it changes.
     pub fn save(&self, state: &mut State) -> SavedState {
-        self.system.settle(&mut state.base, &mut state.work);
+        self.system.settle(&mut state.base, state.work.for_energy());
         let (log, mut work) = state.work.for_log();
         self.fold_log(&mut state.base, (log, &mut work));
         let State { time, stop, base, step, inputs, counters, work: _ } = state;

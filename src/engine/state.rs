@@ -5,6 +5,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
 use crate::engine::base::{Account, Base};
+use crate::engine::energy::Accounting;
 use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
 use crate::engine::flight::log::FlightLog;
 use crate::engine::flight::workspace::Look;
@@ -172,6 +173,11 @@ impl Workspace {
     /// The log of flights, and the part of it that the peaks use.
     pub(in crate::engine) fn for_log(&mut self) -> (&mut FlightLog, PeakWork<'_>) {
         (&mut self.log, PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks })
+    }
+
+    /// The flights that wait for the energy account, and the part of it that the account uses.
+    pub(in crate::engine) fn for_energy(&mut self) -> Accounting<'_> {
+        (&mut self.waiting, &mut self.buffers)
     }
 
     fn new(model: &Model) -> Workspace {

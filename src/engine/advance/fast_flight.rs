@@ -77,7 +77,7 @@ impl Model {
             self.fold_log(base, (log, &mut peaks));
         }
         if work.waiting.is_full() {
-            self.system.settle(base, work);
+            self.system.settle(base, work.for_energy());
         }
         let mut logs = [&mut work.log, &mut work.waiting].map(|log| Some(log).filter(|log| log.is_kept()));
         let room = logs.iter().flatten().map(|log| log.room() as u64).min().unwrap_or(u64::MAX);

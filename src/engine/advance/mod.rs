@@ -194,7 +194,7 @@ impl Model {
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         let State { base, step, inputs, counters, work, .. } = state;
         // Work integrates the step from the motion, the contacts and the storeys at its start.
-        self.system.add_work(&mut At { base, inputs, counters }, step, work);
+        self.system.add_work(&mut At { base, inputs, counters }, step, work.for_energy());
         // So do impulses and peaks. From here on forces, impulses and work of closed contacts are those of the end, and
         // all else is still that of the start.
         self.follow_and_raise(base, step, inputs, end, work);
@@ -226,7 +226,7 @@ impl Model {
             counters.events += 1;
             base.clearance.restart();
             work.log.close((&base.q, &base.v));
-            self.system.settle(base, work);
+            self.system.settle(base, work.for_energy());
             work.note(event, base.time());
             let Base { oscillates, q, v, .. } = base;
             self.system.to_modes((oscillates, q, v), [&mut work.buffers.q, &mut work.buffers.v]);

@@ -34,7 +34,7 @@ impl Model {
     fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
         let whole = limit - at.base.elapsed;
         if whole > self.system.longest_pieces() {
-            self.system.settle(at.base, work);
+            self.system.settle(at.base, work.for_energy());
         }
         let Workspace { buffers, look, .. } = work;
         self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
