@@ -1,8 +1,8 @@
 //! Frequencies, static displacements and positions of rest on soil, in closed form; the balance of moments at any time.
 
-use crate::common::{Run, scene};
+use crate::common::{Run, assert_close, press, scene};
 use crate::soil::{foundation, frame, run_for};
-use pounding::engine::{EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
+use pounding::engine::{EnergyOutput, FoundationOutput as F, Input, Model, Output, PeakOf, PointRates, Response, Side};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -165,4 +165,115 @@ fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
     }
     assert!(worst.iter().zip(largest).all(|(worst, largest)| *worst < 1e-12 * largest), "{worst:?} of {largest:?}");
     assert!(run.storey(Side::Left, 0).plastic != 0.0);
+}
+
+/// Damping of storey and soil in proportion to their stiffness, so that the first mode is critically damped: both of its rates
+/// are one, and no complex modes tell them apart.
+#[test]
+fn critical_damping_exactly() {
+    let (m, k, _, m0, kh) = ONE;
+    let a = k / m + (k + kh) / m0;
+    let root = (a * a - 4.0 * k * kh / (m * m0)).sqrt();
+    let w = [2.0 * k * kh / (m * m0) / (a + root), 0.5 * (a + root)].map(f64::sqrt);
+    let share = 2.0 / w[0];
+    let scene = scene(&format!(
+        "name = \"Critical\"\n[left]\nmass = [{m:?}]\nheight = [6.0]\nstiffness = [{k:?}]\n\
+         initial_displacement = [0.02]\ndamping = {{ dashpots = [{:?}] }}\n\
+         [left.foundation]\nmass = {m0:?}\nsway = {{ stiffness = {kh:?}, dashpot = {:?} }}\n",
+        share * k,
+        share * kh
+    ));
+    let mut run = Run::new(&scene, None);
+    for i in 1..100 {
+        let t = 0.01 * f64::from(i);
+        run.to(t);
+        let mut exact = [0.0; 2];
+        for (j, w) in w.into_iter().enumerate() {
+            // Over (u_0, u_1), from k u_0 = (k - m w^2) u_1.
+            let shape = [1.0 - m * w * w / k, 1.0];
+            let start = 0.02 * m / (m0 * shape[0] * shape[0] + m);
+            let course = match j {
+                0 => (1.0 + w * t) * (-w * t).exp(),
+                _ => {
+                    let c = 0.5 * share * w * w;
+                    let s = (c * c - w * w).sqrt();
+                    ((c + s) * (-(c - s) * t).exp() - (c - s) * (-(c + s) * t).exp()) / (2.0 * s)
+                }
+            };
+            (0..2).for_each(|i| exact[i] += shape[i] * start * course);
+        }
+        let got = [run.read(Output::Foundation(Side::Left, F::Displacement)), run.displacement(Side::Left, 0)];
+        for (got, exact) in got.into_iter().zip(exact) {
+            assert!((got - exact).abs() < 1e-14, "{got:e} m instead of {exact:e} at {t} s");
+        }
+    }
+}
+
+/// Two buildings on soil pressed together: rigid floors stay together while both rock, and at last the contact carries what
+/// springs in a row leave to it.
+#[test]
+fn floors_that_are_held_together_while_both_rock() {
+    let side = |name: &str, stiffness: f64, sway: f64, rocking: f64| {
+        format!(
+            "[{name}]\nmass = [2e5]\nheight = [5.0]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = 0.05 }}\n\
+             [{name}.foundation]\nmass = 8e4\ninertia = 2e6\nsway = {{ stiffness = {sway:?}, dashpot = 2e6 }}\n\
+             rocking = {{ stiffness = {rocking:?}, dashpot = 1e8 }}\n"
+        )
+    };
+    let (left, right) = ((3e7, 2e8, 2e9), (5e7, 1e8, 3e9));
+    let contact =
+        "[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.01\nlaw = \"stereomechanical\"\nrestitution = 0.4\n";
+    let mut held = scene(&format!(
+        "name = \"Held\"\n{}{}{contact}",
+        side("left", left.0, left.1, left.2),
+        side("right", right.0, right.1, right.2)
+    ));
+    held.floor_forces = true;
+    let mut run = Run::new(&held, None);
+    press(&mut run, 4e5);
+    let mut rotations = [0.0_f64; 2];
+    for k in 1..200 {
+        run.to(0.02 * f64::from(k));
+        if run.contact(0).active {
+            let apart = run.displacement(Side::Left, 0) - run.displacement(Side::Right, 0) - 0.01;
+            assert!(apart.abs() < 1e-15, "{apart:e} m");
+            let rates = [Side::Left, Side::Right].map(|side| run.read(Output::Foundation(side, F::RotationRate)));
+            rotations.iter_mut().zip(rates).for_each(|(most, rate)| *most = most.max(rate.abs()));
+        }
+    }
+    assert!(rotations.iter().all(|rate| *rate > 1e-5), "{rotations:?} rad/s while held");
+    run.to(120.0);
+    let [one, other] = [left, right].map(|(k, kh, kr)| 1.0 / k + 1.0 / kh + 25.0 / kr);
+    assert_close(run.contact(0).force, 4e5 - 0.01 / (one + other), 1e-12, "reaction");
+}
+
+/// An acceleration that is read changes with the inputs at the same instant as the derivative by these says: that of a
+/// foundation does not, since soil and storey do not know of the ground's acceleration, nor of a force on a floor, yet.
+#[test]
+fn accelerations_follow_inputs_at_once() {
+    let mut scene = one_storey(6e4, 9e5, Some(2.4e9));
+    scene.floor_forces = true;
+    let mut run = Run::new(&scene, None);
+    run.state.set_ground_acceleration(1.0);
+    run.to(0.1);
+    let outputs = [Output::Foundation(Side::Left, F::Acceleration), Output::Acceleration(Side::Left, 0)];
+    let before = outputs.map(|output| run.read(output));
+    for (input, expected) in
+        [(Input::GroundAcceleration, [0.0, 0.0]), (Input::Force(Side::Left, 0), [0.0, 1e3 / ONE.0])]
+    {
+        let mut response = Response::default();
+        run.now().respond([(input, 1e3)], &mut response);
+        let told = run.state.inputs().get(input).at(0.1);
+        run.state.set_input(input, told + 1e3);
+        run.model.observe(&run.state, &mut run.point);
+        for ((output, before), expected) in outputs.into_iter().zip(before).zip(expected) {
+            let (answer, change) = (run.model.response_of(&response, output), run.read(output) - before);
+            assert!(
+                (answer - expected).abs() < 1e-12 && (change - expected).abs() < 1e-12,
+                "{input:?}: {answer}, {change}"
+            );
+        }
+        run.state.set_input(input, told);
+        run.model.observe(&run.state, &mut run.point);
+    }
 }
