@@ -2,7 +2,9 @@
 
 use crate::common::{Run, assert_close, press, scene};
 use crate::soil::{foundation, frame, run_for};
-use pounding::engine::{EnergyOutput, FoundationOutput as F, Input, Model, Output, PeakOf, PointRates, Response, Side};
+use pounding::engine::{
+    ContactOutput, EnergyOutput, FoundationOutput as F, Input, Model, Output, PeakOf, PointRates, Response, Side,
+};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -276,4 +278,39 @@ fn accelerations_follow_inputs_at_once() {
         run.state.set_input(input, told);
         run.model.observe(&run.state, &mut run.point);
     }
+}
+
+/// The ground pushes floors and foundations alike and no rotation: a reaction between a floor and columns that lean with their
+/// foundation does not follow the ground's acceleration at once.
+#[test]
+fn a_reaction_on_columns_does_not_know_of_the_ground_yet() {
+    let building = |side: &str, heights: &str| {
+        format!(
+            "[{side}]\nmass = [2e5]\nheight = [{heights}]\nstiffness = [4e7]\ndamping = {{ ratio = 0.05 }}\n\
+             [{side}.foundation]\nmass = 8e4\ninertia = 2e6\nsway = {{ stiffness = 2e8, dashpot = 2e6 }}\n\
+             rocking = {{ stiffness = 2e9, dashpot = 1e8 }}\n"
+        )
+    };
+    let mut scene = scene(&format!(
+        "name = \"Columns\"\n{}{}[[contact]]\nleft_storey = 1\nright_floor = 1\ngap = 0.0\nlaw = \"stereomechanical\"\n\
+         restitution = 0.0\n",
+        building("left", "6.0"),
+        building("right", "3.5")
+    ));
+    scene.floor_forces = true;
+    let mut run = Run::new(&scene, None);
+    press(&mut run, 4e5);
+    run.state.set_ground_acceleration(0.3);
+    run.to(0.05);
+    let (force, mut response) = (run.contact(0).force, Response::default());
+    run.now().respond([(Input::GroundAcceleration, 1.0)], &mut response);
+    let answer = run.model.response_of(&response, Output::Contact(0, ContactOutput::Force));
+    run.state.set_ground_acceleration(1.3);
+    run.model.observe(&run.state, &mut run.point);
+    assert!(run.contact(0).active && force > 1e5, "{:?}", run.contact(0));
+    assert!(
+        answer.abs() < 1e-9 && (run.contact(0).force - force).abs() < 1e-9 * force,
+        "{answer} N, {:?}",
+        run.contact(0)
+    );
 }
