@@ -6,7 +6,8 @@ pub mod peaks;
 pub mod problems;
 
 use pounding::engine::{
-    ContactPoint, EnergyPoint, Episode, Instant, Model, Output, PeakOf, Point, SavedState, Side, State, YieldingOf,
+    ContactPoint, EnergyPoint, Episode, FoundationOutput, Instant, Model, Output, PeakOf, Point, SavedState, Side,
+    State, YieldingOf,
 };
 use pounding::record::Record;
 use pounding::scene::Scene;
@@ -35,6 +36,8 @@ pub struct Run {
     pub episodes: Vec<Episode>,
     /// The storeys that can yield, counted from 0.
     pub yielding: Vec<(Side, usize)>,
+    /// Heights of the storeys that lean with their foundation, m; 0 of others.
+    pub leaning: [Vec<f64>; 2],
 }
 
 /// All that is shown of a storey that can yield.
@@ -66,7 +69,11 @@ impl Run {
         let of = |side| (0..model.floors(side)).map(move |storey| (side, storey));
         let can_yield = |&(side, storey): &(Side, usize)| scene.building(side).yielding_storey(storey).is_some();
         let yielding = of(Side::Left).chain(of(Side::Right)).filter(can_yield).collect();
-        Run { model, state, point: Point::default(), episodes: Vec::new(), yielding }
+        let leaning = [&scene.left, &scene.right].map(|building| {
+            let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
+            building.heights.as_ref().filter(|_| rocks).map(|heights| heights.storeys.clone()).unwrap_or_default()
+        });
+        Run { model, state, point: Point::default(), episodes: Vec::new(), yielding, leaning }
     }
 
     /// Advances to a time and reads it.
@@ -103,6 +110,18 @@ impl Run {
 
     pub fn displacement(&self, side: Side, floor: usize) -> f64 {
         self.read(Output::Displacement(side, floor))
+    }
+
+    /// The drift that strains a storey, from displacements of floors and of the foundation, m.
+    pub fn drift(&self, side: Side, storey: usize) -> f64 {
+        let of_foundation = |of| self.read(Output::Foundation(side, of));
+        let below = match storey.checked_sub(1) {
+            Some(below) => self.displacement(side, below),
+            None => of_foundation(FoundationOutput::Displacement),
+        };
+        let height = self.leaning[side as usize].get(storey).copied().unwrap_or(0.0);
+        let lean = if height == 0.0 { 0.0 } else { height * of_foundation(FoundationOutput::Rotation) };
+        self.displacement(side, storey) - below - lean
     }
 
     pub fn velocity(&self, side: Side, floor: usize) -> f64 {

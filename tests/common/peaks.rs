@@ -18,9 +18,8 @@ pub fn all(run: &Run) -> [Vec<Read>; 5] {
     for side in [Side::Left, Side::Right] {
         for floor in 0..run.model.floors(side) {
             let moved = run.displacement(side, floor);
-            let below = floor.checked_sub(1).map_or(0.0, |below| run.displacement(side, below));
             displacements.push(read(PeakOf::Displacement(side, floor), moved));
-            drifts.push(read(PeakOf::Drift(side, floor), moved - below));
+            drifts.push(read(PeakOf::Drift(side, floor), run.drift(side, floor)));
             let acceleration = run.read(Output::Acceleration(side, floor));
             accelerations.push(read(PeakOf::Acceleration(side, floor), acceleration));
         }

@@ -10,7 +10,7 @@ pub struct Frame {
     /// kg.
     pub mass: f64,
     /// Hz, of one storey by itself.
-    frequency: f64,
+    pub frequency: f64,
     /// Factors on mass and stiffness, storey by storey.
     pub storeys: Vec<(f64, f64)>,
     ratio: f64,
@@ -24,11 +24,16 @@ pub fn frame(most_storeys: usize) -> impl Strategy<Value = Frame> {
 }
 
 impl Frame {
+    /// Of the storeys, N/m.
+    pub fn stiffness(&self) -> Vec<f64> {
+        let w = 2.0 * PI * self.frequency;
+        self.storeys.iter().map(|(_, k)| k * self.mass * w * w).collect()
+    }
+
     /// The table of the building on one side.
     pub fn toml(&self, side: &str) -> String {
-        let w = 2.0 * PI * self.frequency;
         let masses: Vec<f64> = self.storeys.iter().map(|(m, _)| m * self.mass).collect();
-        let stiffness: Vec<f64> = self.storeys.iter().map(|(_, k)| k * self.mass * w * w).collect();
+        let stiffness = self.stiffness();
         format!("[{side}]\nmass = {masses:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = {:?} }}\n", self.ratio)
     }
 }
