@@ -151,3 +151,20 @@ fn a_point_reads_one_model_after_another() {
         assert!(read == expected && read.iter().all(|energy| *energy > 0.0), "{read:?} instead of {expected:?}");
     }
 }
+
+/// A state is plain data: a copy goes on as the state does, with a link and without one.
+#[test]
+fn a_copy_of_a_state_goes_on_to_the_same_energies() {
+    let buildings = "[left]\nmass = [4e4]\nstiffness = [3e7]\ndamping = { ratio = 0.03 }\n\
+                     [right]\nmass = [3e4]\nstiffness = [5e7]\ndamping = { ratio = 0.05 }\n";
+    for links in [vec![], vec![between(1, 1, 1e6, 1e5)]] {
+        let mut run = shaken(linked(buildings, &links), &shaking());
+        run.to(1.01);
+        let (mut copy, mut point) = (run.state.clone(), Point::default());
+        run.model.advance(&mut copy, 4.0, &mut |_| ()).unwrap();
+        run.to(4.0);
+        let energy = run.model.observe(&copy, &mut point).energy().unwrap();
+        assert_eq!(format!("{energy:?}"), format!("{:?}", run.energy()), "{links:?}");
+        assert!(energy.viscous > 0.0 && energy.residual.abs() < 1e-13, "{energy:?}");
+    }
+}

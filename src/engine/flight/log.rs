@@ -188,7 +188,8 @@ impl ForceLog {
 
 impl Clone for FlightLog {
     fn clone(&self) -> FlightLog {
-        let mut log = FlightLog::new(self.lanes, self.forces.as_ref().map_or(0, |forces| forces.floors));
+        let floors = self.forces.as_ref().map_or(0, |forces| forces.floors);
+        let mut log = FlightLog::with_room((self.lanes, floors), self.most);
         log.q.extend_from_slice(&self.q);
         log.v.extend_from_slice(&self.v);
         log.loads.extend_from_slice(&self.loads);
