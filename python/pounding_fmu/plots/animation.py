@@ -19,6 +19,7 @@ from PIL import Image
 
 from .._terminal import Progress
 from .elevation import Elevation, inner_edges, prepare_height
+from .pictures import counted
 from .runs import Run, Runs
 from .soil import Foot
 from .style import BLACK, BUILDINGS, LOOK, YELLOW
@@ -191,4 +192,4 @@ class Stage:
             sizes.append((60 + 640 * impact["impulse"] / self.largest) * (1.0 - 0.8 * age))
         self.burst.set_offsets(np.array(places).reshape(-1, 2))
         self.burst.set_sizes(sizes)
-        self.count.set_text(f"{begun:4d} impacts")
+        self.count.set_text(f"{counted(begun):>12}")
