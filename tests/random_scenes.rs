@@ -252,6 +252,11 @@ proptest! {
     ) {
         check(&uneven_text(&frames, &laws, &positions), HELD)?;
     }
+}
+
+proptest! {
+    // Heavy dashpots below light frames take longer than all else.
+    #![proptest_config(ProptestConfig { cases: 100, rng_seed: RngSeed::Fixed(26), ..ProptestConfig::default() })]
 
     #[test]
     fn every_run_on_soil_ends_with_its_energy_accounted_for(
