@@ -105,7 +105,7 @@ impl Piecewise<'_> {
                 let (force, ratio) = yielding.unwrap_or((f64::INFINITY, 1.0));
                 storeys.push(Storey { row, stiffness, limit: force / stiffness, ratio, can_yield: yielding.is_some() });
             }
-            damping += damping_of(&building.damping, &mass, first(side), &storeys[own..]);
+            damping += damping_of(building, &mass, first(side), &storeys[own..]);
         }
         for link in &scene.links {
             let mut row = DVector::zeros(n);
@@ -454,13 +454,16 @@ impl Pair {
 }
 
 /// The damping matrix of one building among the floors of both.
-fn damping_of(damping: &Damping, mass: &DVector<f64>, first: usize, storeys: &[Storey]) -> DMatrix<f64> {
+fn damping_of(building: &Building, mass: &DVector<f64>, first: usize, storeys: &[Storey]) -> DMatrix<f64> {
     let n = mass.len();
     let sum = |coefficient: &dyn Fn(usize) -> f64| {
         let terms = storeys.iter().enumerate().map(|(i, storey)| coefficient(i) * &storey.row * storey.row.transpose());
         terms.fold(DMatrix::zeros(n, n), |sum, term| sum + term)
     };
-    match damping {
+    if storeys.is_empty() {
+        return DMatrix::zeros(n, n);
+    }
+    match &building.damping {
         Damping::Dashpots(dashpots) => sum(&|i| dashpots[i]),
         Damping::Matrix(rows) => {
             let mut matrix = DMatrix::zeros(n, n);
@@ -469,14 +472,20 @@ fn damping_of(damping: &Damping, mass: &DVector<f64>, first: usize, storeys: &[S
             }
             matrix
         }
-        // 2 xi M (M^-1 K)^(1/2), of the floors of this building.
+        // 2 xi M (M^-1 K)^(1/2) of the floors on a fixed base, by what they do beyond their foundation: the sums of drifts.
         &Damping::Ratio(ratio) => {
-            let root = DMatrix::from_diagonal(&mass.map(f64::sqrt));
-            let inverse = DMatrix::from_diagonal(&mass.map(|m| 1.0 / m.sqrt()));
-            let modes = SymmetricEigen::new(&inverse * sum(&|i| storeys[i].stiffness) * &inverse);
+            let floors = mass.rows(first, building.mass.len());
+            let (root, inverse) = (floors.map(f64::sqrt), floors.map(|m| 1.0 / m.sqrt()));
+            let [root, inverse] = [root, inverse].map(|diagonal| DMatrix::from_diagonal(&diagonal));
+            let gravity = building.gravity_stiffness();
+            let net = sum(&|i| storeys[i].stiffness - gravity[i]);
+            let net = net.view((first, first), (floors.len(), floors.len()));
+            let modes = SymmetricEigen::new(&inverse * net * &inverse);
             let diagonal =
                 DMatrix::from_diagonal(&modes.eigenvalues.map(|square| 2.0 * ratio * square.max(0.0).sqrt()));
-            &root * &modes.eigenvectors * diagonal * modes.eigenvectors.transpose() * &root
+            let of_floors = &root * &modes.eigenvectors * diagonal * modes.eigenvectors.transpose() * &root;
+            let beyond = DMatrix::from_fn(floors.len(), n, |i, j| storeys[..=i].iter().map(|s| s.row[j]).sum::<f64>());
+            beyond.transpose() * of_floors * beyond
         }
         other => panic!("{other:?} is not known here"),
     }

@@ -2,16 +2,14 @@
 
 use crate::common::{Run, assert_close, press, scene};
 use crate::soil::{foundation, frame, run_for};
-use pounding::engine::{
-    ContactOutput, EnergyOutput, FoundationOutput as F, Input, Model, Output, PeakOf, PointRates, Response, Side,
-};
+use pounding::engine::{EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
 /// kg, N/m, m, and of the foundation kg and N/m.
-const ONE: (f64, f64, f64, f64, f64) = (1.8e5, 4e7, 6.0, 6e4, 1.2e8);
+pub const ONE: (f64, f64, f64, f64, f64) = (1.8e5, 4e7, 6.0, 6e4, 1.2e8);
 
-fn one_storey(mass: f64, inertia: f64, rocking: Option<f64>) -> Scene {
+pub fn one_storey(mass: f64, inertia: f64, rocking: Option<f64>) -> Scene {
     let (m, k, h, _, kh) = ONE;
     let rocking =
         rocking.map_or(String::new(), |kr| format!("inertia = {inertia:?}\nrocking = {{ stiffness = {kr:?} }}\n"));
@@ -247,70 +245,4 @@ fn floors_that_are_held_together_while_both_rock() {
     run.to(120.0);
     let [one, other] = [left, right].map(|(k, kh, kr)| 1.0 / k + 1.0 / kh + 25.0 / kr);
     assert_close(run.contact(0).force, 4e5 - 0.01 / (one + other), 1e-12, "reaction");
-}
-
-/// An acceleration that is read changes with the inputs at the same instant as the derivative by these says: that of a
-/// foundation does not, since soil and storey do not know of the ground's acceleration, nor of a force on a floor, yet.
-#[test]
-fn accelerations_follow_inputs_at_once() {
-    let mut scene = one_storey(6e4, 9e5, Some(2.4e9));
-    scene.floor_forces = true;
-    let mut run = Run::new(&scene, None);
-    run.state.set_ground_acceleration(1.0);
-    run.to(0.1);
-    let outputs = [Output::Foundation(Side::Left, F::Acceleration), Output::Acceleration(Side::Left, 0)];
-    let before = outputs.map(|output| run.read(output));
-    for (input, expected) in
-        [(Input::GroundAcceleration, [0.0, 0.0]), (Input::Force(Side::Left, 0), [0.0, 1e3 / ONE.0])]
-    {
-        let mut response = Response::default();
-        run.now().respond([(input, 1e3)], &mut response);
-        let told = run.state.inputs().get(input).at(0.1);
-        run.state.set_input(input, told + 1e3);
-        run.model.observe(&run.state, &mut run.point);
-        for ((output, before), expected) in outputs.into_iter().zip(before).zip(expected) {
-            let (answer, change) = (run.model.response_of(&response, output), run.read(output) - before);
-            assert!(
-                (answer - expected).abs() < 1e-12 && (change - expected).abs() < 1e-12,
-                "{input:?}: {answer}, {change}"
-            );
-        }
-        run.state.set_input(input, told);
-        run.model.observe(&run.state, &mut run.point);
-    }
-}
-
-/// The ground pushes floors and foundations alike and no rotation: a reaction between a floor and columns that lean with their
-/// foundation does not follow the ground's acceleration at once.
-#[test]
-fn a_reaction_on_columns_does_not_know_of_the_ground_yet() {
-    let building = |side: &str, heights: &str| {
-        format!(
-            "[{side}]\nmass = [2e5]\nheight = [{heights}]\nstiffness = [4e7]\ndamping = {{ ratio = 0.05 }}\n\
-             [{side}.foundation]\nmass = 8e4\ninertia = 2e6\nsway = {{ stiffness = 2e8, dashpot = 2e6 }}\n\
-             rocking = {{ stiffness = 2e9, dashpot = 1e8 }}\n"
-        )
-    };
-    let mut scene = scene(&format!(
-        "name = \"Columns\"\n{}{}[[contact]]\nleft_storey = 1\nright_floor = 1\ngap = 0.0\nlaw = \"stereomechanical\"\n\
-         restitution = 0.0\n",
-        building("left", "6.0"),
-        building("right", "3.5")
-    ));
-    scene.floor_forces = true;
-    let mut run = Run::new(&scene, None);
-    press(&mut run, 4e5);
-    run.state.set_ground_acceleration(0.3);
-    run.to(0.05);
-    let (force, mut response) = (run.contact(0).force, Response::default());
-    run.now().respond([(Input::GroundAcceleration, 1.0)], &mut response);
-    let answer = run.model.response_of(&response, Output::Contact(0, ContactOutput::Force));
-    run.state.set_ground_acceleration(1.3);
-    run.model.observe(&run.state, &mut run.point);
-    assert!(run.contact(0).active && force > 1e5, "{:?}", run.contact(0));
-    assert!(
-        answer.abs() < 1e-9 && (run.contact(0).force - force).abs() < 1e-9 * force,
-        "{answer} N, {:?}",
-        run.contact(0)
-    );
 }

@@ -6,8 +6,14 @@ mod closed_forms;
 #[path = "../common/mod.rs"]
 mod common;
 mod frames;
+mod inputs;
 mod invariants;
 #[path = "../physics/piecewise.rs"]
 mod piecewise;
+mod random;
+#[path = "../problems/random_frames.rs"]
+mod random_frames;
+#[path = "../problems/random_soil.rs"]
+mod random_soil;
 mod reference;
 mod soil;
