@@ -17,9 +17,15 @@ const SCENE: &str = r#"
 name = "States"
 [left]
 mass = [2e4, 2e4]
+height = [3.0, 3.0]
 stiffness = [3e6, 3e6]
 damping = { ratio = 0.05 }
 initial_velocity = [0.2, 0.0]
+[left.foundation]
+mass = 1e4
+inertia = 1e5
+sway = { stiffness = 1e7, dashpot = 1e5 }
+rocking = { stiffness = 3e8, dashpot = 1e6 }
 [right]
 mass = [3e4]
 stiffness = [2e7]
