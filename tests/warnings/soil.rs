@@ -44,3 +44,35 @@ fn dashpots_and_inertia() {
     tell("3e5", "2.9", "left.foundation.inertia", "at 0.00983 m from its centre");
     tell("3e5", "3.3e8", "left.foundation.inertia", "at 105 m from its centre");
 }
+
+#[test]
+fn a_foundation_that_only_sways_has_no_inertia_to_look_at() {
+    let (sway, _) = SOUND.split_once("\nrocking").unwrap();
+    let scene = building("mass", "mass").replace(SOUND, &sway.replace("inertia = 3e5\n", ""));
+    assert!(!scene.contains("rocking") && !scene.contains("inertia"));
+    assert_eq!(found(&scene, None), []);
+}
+
+/// The same building in t and kN.
+#[test]
+fn springs_in_newtons_where_kilonewtons_are_meant() {
+    let mut scene = format!("units = \"kN-t\"\n{}", building("mass", "mass"));
+    let edits =
+        [("[4e4, 3e4]", "[40, 30]"), ("[3e7, 2e7]", "[3e4, 2e4]"), ("mass = 3e4", "mass = 30"), ("= 3e5", "= 300")];
+    let soil = [("9e7", "9e4"), ("1.5e6", "1.5e3"), ("1.2e9", "1.2e6"), ("4e6", "4e3")];
+    for (from, to) in edits.into_iter().chain(soil) {
+        assert_eq!(scene.matches(from).count(), 1, "{from}");
+        scene = scene.replace(from, to);
+    }
+    assert_eq!(found(&scene, None), []);
+    let told = found(&scene.replace("9e4", "9e7").replace("1.2e6", "1.2e9"), None);
+    assert_eq!(paths(&told), ["left.foundation.rocking.stiffness"], "{told:?}");
+    assert!(told[0].text.contains("it is in kN m/rad, was it given in N m/rad?"), "{}", told[0]);
+}
+
+/// Of a building whose storeys are in other units than its soil, the building alone is told of.
+#[test]
+fn the_soil_of_a_building_in_other_units() {
+    let told = found(&building("mass", "mass").replace("[3e7, 2e7]", "[3e4, 2e4]"), None);
+    assert_eq!(paths(&told), ["left.stiffness"], "{told:?}");
+}
