@@ -1,7 +1,7 @@
 //! What must not matter: whether the foundation that sways is called a floor, left and right, communication steps, saving. And
 //! what must hold at any time: peaks are those of all that is read, energies add up, heavy dashpots let a foundation creep.
 
-use crate::common::{Run, scene};
+use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
 use crate::soil::{foundation, frame, run_for, shaking};
 use pounding::engine::{EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates, SavedState, Side};
@@ -276,4 +276,28 @@ fn a_dashpot_that_keeps_the_foundation_from_rocking() {
         assert!(energy.residual.abs() < 1e-9, "{k}: {energy:?}");
     }
     assert!(rocking.state.counters().energy_steps < 1000, "{:?}", rocking.state.counters());
+}
+
+/// Floors that touch at rest, one contact under a power law and one rigid, move together at first but for rounding. What the
+/// foundation's heavy dashpot leaves of their relative acceleration once said that they meet again after 4e-39 s.
+#[test]
+fn floors_that_touch_at_rest_part_although_rounding_says_that_they_meet_again() {
+    let mut scene = scene(
+        "name = \"Touching\"\noutputs = { energy = true }\n\
+         [left]\nheight = [3, 3]\nmass = [1300, 1900]\nstiffness = [3.85e6, 4.8e6]\ndamping = { ratio = 0.0 }\n\
+         [right]\nheight = [3, 3, 3]\nmass = [2695.8876058849983, 3990, 3283.976588546702]\n\
+         stiffness = [17732121.88368963, 15840000, 21601094.82730284]\ndamping = { ratio = 0.0567 }\n\
+         [right.foundation]\nmass = 14049.5\nsway = { stiffness = 1.7e9, dashpot = 1438 }\n\
+         inertia = 42148.49689351252\nrocking = { stiffness = 2.64e9, dashpot = 1.633e7 }\n\
+         [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0\nlaw = \"jankowski\"\nstiffness = 9.7e7\n\
+         restitution = 0.57\n\
+         [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0\nlaw = \"stereomechanical\"\nrestitution = 0.63\n",
+    );
+    scene.ground.record = Some("motion.csv".into());
+    let t = |k: i32| f64::from(k) * 0.02;
+    let ground: Vec<f64> = (0..=100).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect();
+    let mut run = Run::new(&scene, Some(&record(0.02, &ground)));
+    run.to(2.0);
+    assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
+    assert!(run.episodes.len() > 20, "{}", run.episodes.len());
 }

@@ -8,7 +8,7 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{MotionSeries, dot};
+use crate::structure::{MotionSeries, difference};
 
 /// A rigid pair is tracked by its own increments while it is at most this many rounding errors of its penetration
 /// apart.
@@ -23,7 +23,10 @@ impl System {
     pub(crate) fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.tracked);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
-            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
+            // Not `dot`: for floors that have just been let go, hardly apart yet, a relative acceleration by rounding is a
+            // rebound after a time that no clock resolves, and none in the series of their penetration.
+            let towards = difference(&pair.row, acceleration).0;
+            4.0 * time_to_surface(contact.penetration, contact.rate, towards)
         };
         apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
