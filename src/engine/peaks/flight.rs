@@ -105,6 +105,7 @@ impl Model {
                     place: place + i,
                     peak,
                     values: [0.0; LEAVES + 1],
+                    leaves: 0,
                     bend: f64::INFINITY,
                     pieces_left: MOST_PIECES,
                     cleared_in: None,

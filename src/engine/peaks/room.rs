@@ -15,10 +15,10 @@ const MOST_READ: usize = 4;
 const MOST_PARTS: usize = 32;
 
 /// Largest number of leaves of a piece of a flight, whose ends are read together; a power of 2.
-pub const LEAVES: usize = 8;
+pub const LEAVES: usize = 16;
 
 /// Number of motions within a flight that are kept.
-pub const MOST_FLOWN: usize = 16;
+pub const MOST_FLOWN: usize = 32;
 
 /// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
 /// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
@@ -68,6 +68,8 @@ pub struct Suspect {
     pub peak: f64,
     /// Its values at the ends of the leaves that are searched.
     pub values: [f64; LEAVES + 1],
+    /// The leaves in which it may turn above its peak, as bits.
+    pub leaves: u32,
     /// A bound on its second derivative from there on.
     pub bend: f64,
     /// Number of pieces in which the flight may still be searched for it.

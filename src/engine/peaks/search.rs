@@ -119,20 +119,64 @@ impl Model {
         }
         let (count, times) = piece.leaves(reach);
         let asked = times[..count].partition_point(|start| *start < until);
-        for (k, &time) in times.iter().enumerate().take(asked + 1) {
-            self.fly_to(flight, time, [2, 3], work);
-            self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
-                suspect.values[k] = value;
-                suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
-            });
-        }
+        self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work);
         for k in 0..asked {
             self.search_leaf(flight, (k, [times[k], times[k + 1]]), until, suspects, work);
         }
     }
 
-    /// Searches leaf `k`. For the quantities that chords do not clear the cubics through both ends are read, and only then the
-    /// series.
+    /// Notes for each quantity the leaves in which it may turn above its peak, among the first `asked` of those between some
+    /// times: halves are cleared by chords before their values in the middle are read. Peaks rise to all that is read.
+    fn find_open_leaves(
+        &self,
+        flight: &Stretch,
+        times: &[f64],
+        (asked, until): (usize, f64),
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
+        let count = times.len() - 1;
+        suspects.iter_mut().for_each(|suspect| suspect.leaves = (1 << asked) - 1);
+        for k in [0, count] {
+            self.read_at(flight, (k, times[k]), until, suspects, work);
+        }
+        let mut width = count;
+        loop {
+            for k in (0..count).step_by(width) {
+                clear_chords(suspects, [k, k + width], times[k + width] - times[k]);
+            }
+            if width == 1 {
+                return;
+            }
+            for k in (0..count).step_by(width) {
+                leave_out(suspects, bits(k, width), OF_LEAF);
+                self.read_at(flight, (k + width / 2, times[k + width / 2]), until, suspects, work);
+                open_again(suspects, OF_LEAF);
+            }
+            width /= 2;
+        }
+    }
+
+    /// Reads the quantities that are left at the end `k` of a leaf, and raises their peaks to that.
+    fn read_at(
+        &self,
+        flight: &Stretch,
+        (k, time): (usize, f64),
+        until: f64,
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
+        if !are_any_left(suspects) {
+            return;
+        }
+        self.fly_to(flight, time, [2, 3], work);
+        self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
+            suspect.values[k] = value;
+            suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
+        });
+    }
+
+    /// Searches leaf `k`: by the cubics through both ends, then by the series.
     fn search_leaf(
         &self,
         flight: &Stretch,
@@ -141,7 +185,7 @@ impl Model {
         suspects: &mut [Suspect],
         work: &mut PeakWork,
     ) {
-        clear_chords(suspects, [k, k + 1], leaf[1] - leaf[0], OF_LEAF);
+        leave_out(suspects, bits(k, 1), OF_LEAF);
         if are_any_left(suspects) {
             self.clear_by_cubics(flight, (k, leaf), suspects, work);
         }
@@ -161,14 +205,12 @@ impl Model {
         suspects: &mut [Suspect],
         work: &mut PeakWork,
     ) {
+        suspects.iter_mut().for_each(|suspect| suspect.leaves = 1);
         for (k, time) in [piece.from, piece.to].into_iter().enumerate() {
-            self.fly_to(flight, time, [2, 3], work);
-            self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
-                suspect.values[k] = value;
-                suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
-            });
+            self.read_at(flight, (k, time), until, suspects, work);
         }
-        clear_chords(suspects, [0, 1], piece.to - piece.from, piece.halvings);
+        clear_chords(suspects, [0, 1], piece.to - piece.from);
+        leave_out(suspects, 1, piece.halvings);
     }
 
     /// Calls a function with each quantity that is left and its value at a time of a flight, at which two of the vectors
@@ -252,11 +294,12 @@ impl Model {
         self.set_load(flight, from, work);
         let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
         let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
-        for body in &self.flight_rows().bodies {
-            ends.set_accelerations(self.system.structure.in_flight(), body.modes.clone(), &own);
-        }
+        let mut known = None;
         for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
             let (body, block) = self.block_of(suspects[0].place);
+            if known.replace(body.first) != Some(body.first) {
+                ends.set_accelerations(self.system.structure.in_flight(), body.modes.clone(), &own);
+            }
             let accelerations = [&ends.first, &ends.last].map(|all| &all[body.modes.clone()]);
             let mut course = slopes_of(block, (&own, accelerations), bounds, body.modes.clone());
             if self.system.floor_forces {
@@ -449,14 +492,29 @@ fn are_of_one_block(one: &Suspect, next: &Suspect) -> bool {
     one.place / LANES == next.place / LANES
 }
 
-/// Clears the quantities that do not turn above their peaks between two of their values that are `length` seconds apart: one
-/// deviates from its chord by at most h^2/8 max|y''|, and is monotonic if its ends differ by more than 4 times that.
-fn clear_chords(suspects: &mut [Suspect], [from, to]: [usize; 2], length: f64, piece: u32) {
-    let sag = 0.125 * length * length * (1.0 + 1e-9);
-    for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+/// Clears the leaves between two of their ends, which are `length` seconds apart, for the quantities that do not turn above
+/// their peaks there: one deviates from its chord by at most h^2/8 max|y''|, and is monotonic if its ends differ by more than
+/// 4 times that.
+fn clear_chords(suspects: &mut [Suspect], [from, to]: [usize; 2], length: f64) {
+    let (sag, between) = (0.125 * length * length * (1.0 + 1e-9), bits(from, to - from));
+    for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none() && suspect.leaves & between != 0) {
         let (start, end, sag) = (suspect.values[from], suspect.values[to], sag * suspect.bend);
         let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
-        suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(piece);
+        if is_below || (end - start).abs() > 4.0 * sag {
+            suspect.leaves &= !between;
+        }
+    }
+}
+
+/// So many leaves from one on, as bits.
+fn bits(from: usize, count: usize) -> u32 {
+    ((1 << count) - 1) << from
+}
+
+/// Leaves the quantities out of a piece that are cleared in all of some leaves.
+fn leave_out(suspects: &mut [Suspect], leaves: u32, piece: u32) {
+    for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+        suspect.cleared_in = (suspect.leaves & leaves == 0).then_some(piece);
     }
 }
 
