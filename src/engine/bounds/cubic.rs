@@ -28,8 +28,9 @@ pub fn course_of(
 ) -> Course {
     let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
     let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
-    let accelerations = [&bounds.first, &bounds.last].map(|vector| &vector[modes.clone()]);
-    let mut course = slopes_of(block, (flight, accelerations), bounds, modes);
+    let [first, last] = [&bounds.first, &bounds.last].map(|vector| &vector[modes.clone()]);
+    let factors = [&bounds.slow, &bounds.quick].map(|vector| &vector[modes]);
+    let mut course = sum_course(block, [rate, first, end_rate, last], factors);
     [course.start[0], course.end[0]] = known_ends.unwrap_or_else(|| {
         let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
         ends.map(|values| each(|i| values[i] + at_rest[i]))
@@ -37,19 +38,7 @@ pub fn course_of(
     course
 }
 
-/// Their slopes alone, from the modes' accelerations at both ends, and the bounds on their fourth derivatives.
-pub fn slopes_of(
-    block: &Block,
-    (flight, [first, last]): (&Stretch, [&[f64]; 2]),
-    bounds: &ModeBounds,
-    modes: Range<usize>,
-) -> Course {
-    let [v, end_v, slow, quick] =
-        [flight.start.1, flight.end.1, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
-    sum_course(block, [v, first, end_v, last], [slow, quick])
-}
-
-/// The same from the modes' v and accelerations at both ends and the factors of the bounds.
+/// Their slopes alone, from the modes' v and accelerations at both ends, and the bounds on their fourth derivatives.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> Course {
     let count = block.on_q.len();

@@ -103,7 +103,7 @@ impl ModeBounds {
     }
 
     /// Works out the accelerations of a building's modes at both ends of a flight.
-    pub fn set_accelerations(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
+    fn set_accelerations(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
         let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
         for m in modes {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);

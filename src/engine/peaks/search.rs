@@ -2,12 +2,11 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::cubic::slopes_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
 use crate::engine::peaks::quantity::{Quantity, highest};
-use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakRoom, PeakWork, Suspect};
+use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
@@ -102,8 +101,8 @@ impl Model {
         open_again(suspects, halvings);
     }
 
-    /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at the ends of all leaves
-    /// first: then few leaves are left that may exceed them.
+    /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at ends of leaves first: then few
+    /// leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let reach = self.system.structure.in_flight().fastest * (piece.to - piece.from);
         if piece.from >= until {
@@ -121,7 +120,9 @@ impl Model {
         let asked = times[..count].partition_point(|start| *start < until);
         self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work);
         for k in 0..asked {
-            self.search_leaf(flight, (k, [times[k], times[k + 1]]), until, suspects, work);
+            leave_out(suspects, bits(k, 1), OF_LEAF);
+            self.read_leaf(flight, [times[k], times[k + 1]], until, suspects, work);
+            open_again(suspects, OF_LEAF);
         }
     }
 
@@ -174,25 +175,6 @@ impl Model {
             suspect.values[k] = value;
             suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
         });
-    }
-
-    /// Searches leaf `k`: by the cubics through both ends, then by the series.
-    fn search_leaf(
-        &self,
-        flight: &Stretch,
-        (k, leaf): (usize, [f64; 2]),
-        until: f64,
-        suspects: &mut [Suspect],
-        work: &mut PeakWork,
-    ) {
-        leave_out(suspects, bits(k, 1), OF_LEAF);
-        if are_any_left(suspects) {
-            self.clear_by_cubics(flight, (k, leaf), suspects, work);
-        }
-        if are_any_left(suspects) {
-            self.read_leaf(flight, leaf, until, suspects, work);
-        }
-        open_again(suspects, OF_LEAF);
     }
 
     /// Raises peaks to the values at both ends of a piece, and clears the quantities that do not turn above theirs in between: a
@@ -278,39 +260,6 @@ impl Model {
             }
         }
         self.bound_bends(suspects, &peaks.piece);
-    }
-
-    /// Clears the quantities that do not turn above their peaks in leaf `k`, by their values and slopes at both ends.
-    fn clear_by_cubics(
-        &self,
-        flight: &Stretch,
-        (k, [from, to]): (usize, [f64; 2]),
-        suspects: &mut [Suspect],
-        work: &mut PeakWork,
-    ) {
-        let length = to - from;
-        self.fly_to(flight, from, [0, 1], work);
-        self.fly_to(flight, to, [2, 3], work);
-        self.set_load(flight, from, work);
-        let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
-        let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
-        let mut known = None;
-        for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
-            let (body, block) = self.block_of(suspects[0].place);
-            if known.replace(body.first) != Some(body.first) {
-                ends.set_accelerations(self.system.structure.in_flight(), body.modes.clone(), &own);
-            }
-            let accelerations = [&ends.first, &ends.last].map(|all| &all[body.modes.clone()]);
-            let mut course = slopes_of(block, (&own, accelerations), bounds, body.modes.clone());
-            if self.system.floor_forces {
-                course.add_rates(&direct[suspects[0].place / LANES * LANES..]);
-            }
-            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-                let i = suspect.place % LANES;
-                (course.start[0][i], course.end[0][i]) = (suspect.values[k], suspect.values[k + 1]);
-                suspect.cleared_in = (!course.may_turn_above(i, length, suspect.peak)).then_some(OF_LEAF);
-            }
-        }
     }
 
     /// The body and the block of a quantity.
