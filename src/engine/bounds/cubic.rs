@@ -29,7 +29,7 @@ pub fn course_of(
     let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
     let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
     let [first, last] = [&bounds.first, &bounds.last].map(|vector| &vector[modes.clone()]);
-    let factors = [&bounds.slow, &bounds.quick].map(|vector| &vector[modes]);
+    let factors = [&bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
     let mut course = sum_course(block, [rate, first, end_rate, last], factors);
     [course.start[0], course.end[0]] = known_ends.unwrap_or_else(|| {
         let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
