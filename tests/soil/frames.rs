@@ -1,5 +1,5 @@
 //! Frames on soil, with storeys that yield, P-delta, contacts with floors and columns, and foundations that are linked through
-//! the soil, beside exponentials of the matrices of their phases (`physics/piecewise.rs`).
+//! the soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
 use crate::common::{Run, scene};
 use crate::piecewise::{Piecewise, assert_same_motion};

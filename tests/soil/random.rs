@@ -1,4 +1,4 @@
-//! Random frames on random soil, beside exponentials of the matrices of their phases (`physics/piecewise.rs`).
+//! Random frames on random soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
 use crate::common::problems::laws::contact;
 use crate::common::scene;
