@@ -120,9 +120,9 @@ fn yielding(text: &str, frames: &[Frame; 2], yields: &[Option<(f64, f64)>]) -> S
     text.replace("[left]\n", &format!("[left]\n{left}")).replace("[right]\n", &format!("[right]\n{right}"))
 }
 
-/// Rounding of what a storey is strained by, as a share of the displacements that it is a difference of: 45 units in the last
-/// place, for two sums of up to a dozen modes and storeys each. The plastic drifts of all storeys are among them: they
-/// make the position of rest, and each is taken from the motion of all modes as it grows.
+/// Rounding of what a storey is strained by, as a share of the displacements that it is a difference of: 45 units in the
+/// last place, for two sums of up to a dozen modes and storeys each; less than 1 unit has been seen. The plastic drifts of
+/// all storeys are among them: they make the position of rest, and each is taken from the motion of all modes as it grows.
 const ROUNDING: f64 = 1e-14;
 
 /// Sum of the magnitudes of the displacements of a building, from the foundation to the roof, m.
@@ -173,8 +173,8 @@ fn displacement(run: &Run, share: &Share) -> f64 {
 /// that has been seen). Work that is left out shows as 1e-4 and more.
 const HELD: f64 = 1e-8;
 
-/// The same where floors are level. Elastic contacts of light frames multiply the rounding of every impact; the account still
-/// has to close.
+/// The same where floors are level. Elastic contacts of light frames multiply the rounding of every impact; the account
+/// still has to close.
 const LEVEL: f64 = 1e-11;
 
 /// A scene whose floors are level or not, and the bound on its energy account.

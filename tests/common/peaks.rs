@@ -68,9 +68,10 @@ const ROUNDING: f64 = 1e-14;
 const PROMISED: f64 = 1e-10;
 
 impl Watch {
-    /// What is wrong with the peaks of a run that has been read: none is below the value at that time, but for the digits that a peak
-    /// promises and the rounding of the terms of the value, and no peak of a contact force by more than its last digit; none has
-    /// fallen since the last time by more than the rounding of floors that are held or of storeys far beyond their yield drift.
+    /// What is wrong with the peaks of a run that has been read: none is below the value at that time, but for the digits
+    /// that a peak promises and the rounding of the terms of the value, and no peak of a contact force by more than its last
+    /// digit; none has fallen since the last time by more than the rounding of floors that are held or of storeys far beyond
+    /// their yield drift.
     pub fn look(&mut self, run: &Run) -> Result<(), String> {
         let time = run.state.time();
         for side in [Side::Left, Side::Right] {

@@ -58,8 +58,8 @@ fn a_force_counts_when_it_is_reached() {
     assert!(largest > 1e3, "{largest} N");
 }
 
-/// Floors that press each other through a damped contact so stiff that its rate is hardly more than their rounding: the force at
-/// the end of a step is that of the rate of the floors, not of the series.
+/// Floors that press each other through a damped contact so stiff that its rate is hardly more than their rounding: the
+/// force at the end of a step is that of the rate of the floors, not of the series.
 #[test]
 fn a_force_counts_with_the_rate_of_the_floors() {
     let t = |k: u32| f64::from(k) * 0.02;
@@ -67,8 +67,8 @@ fn a_force_counts_with_the_rate_of_the_floors() {
     check(STIFF_ON_SOIL, Some(&record(0.02, &(0..=10).map(motion).collect::<Vec<_>>())), 0.1);
 }
 
-/// A mass is pressed into a damped spring at a wall when another hits it: an impulse raises the rate of the spring at once, and
-/// with it its force, which falls from then on.
+/// A mass is pressed into a damped spring at a wall when another hits it: an impulse raises the rate of the spring at once,
+/// and with it its force, which falls from then on.
 #[test]
 fn a_force_counts_when_an_impulse_raises_it() {
     let spring = "stiffness = 1e7\nrestitution = 0.05\n";
