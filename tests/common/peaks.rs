@@ -37,8 +37,8 @@ pub fn all(run: &Run) -> [Vec<Read>; 5] {
 /// What the rounding of each kind that `all` returns is a share of: the terms that its values are sums of.
 ///
 /// The foundations are floors like any other in the modes of their building, or of both where they are linked, and the
-/// values of the floors above them are differences of large terms. A drift that is read is a difference of displacements. A
-/// contact force is read as it is added to its peak.
+/// values of the floors above them are differences of large terms. A drift that is read is a difference of displacements.
+/// A contact force is read as it is added to its peak.
 fn sizes(run: &Run, kinds: &[Vec<Read>; 5], foundations: f64) -> [f64; 5] {
     let [displacements, _, accelerations, shears, _] =
         kinds.each_ref().map(|kind| kind.iter().fold(0.0, |largest: f64, read| largest.max(read.peak)));
@@ -69,9 +69,9 @@ const PROMISED: f64 = 1e-10;
 
 impl Watch {
     /// What is wrong with the peaks of a run that has been read: none is below the value at that time, but for the digits
-    /// that a peak promises and the rounding of the terms of the value, and no peak of a contact force by more than its last
-    /// digit; none has fallen since the last time by more than the rounding of floors that are held or of storeys far beyond
-    /// their yield drift.
+    /// that a peak promises and the rounding of the terms of the value, and no peak of a contact force by more than its
+    /// last digit; none has fallen since the last time by more than the rounding of floors that are held or of storeys far
+    /// beyond their yield drift.
     pub fn look(&mut self, run: &Run) -> Result<(), String> {
         let time = run.state.time();
         for side in [Side::Left, Side::Right] {
