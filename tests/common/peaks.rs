@@ -1,7 +1,7 @@
 //! Peaks beside what is read at the same time.
 
 use super::Run;
-use pounding::engine::{Output, PeakOf, Side};
+use pounding::engine::{FoundationOutput, Output, PeakOf, Side};
 
 /// A quantity whose peak is kept.
 pub struct Read {
@@ -34,23 +34,56 @@ pub fn all(run: &Run) -> [Vec<Read>; 5] {
     [displacements, drifts, accelerations, shears, contacts.collect()]
 }
 
+/// What the rounding of each kind that `all` returns is a share of: the terms that its values are sums of.
+///
+/// The foundations are floors like any other in the modes of their building, or of both where they are linked, and the
+/// values of the floors above them are differences of large terms. A drift that is read is a difference of displacements.
+/// A contact force is read as it is added to its peak.
+fn sizes(run: &Run, kinds: &[Vec<Read>; 5], foundations: f64) -> [f64; 5] {
+    let [displacements, _, accelerations, shears, _] =
+        kinds.each_ref().map(|kind| kind.iter().fold(0.0, |largest: f64, read| largest.max(read.peak)));
+    let (mut moved, mut sheared) = (displacements, shears);
+    for side in [Side::Left, Side::Right] {
+        let of = |of| run.read(Output::Foundation(side, of));
+        let height: f64 = run.leaning[side as usize].iter().sum();
+        moved = moved.max(of(FoundationOutput::PeakDisplacement)).max(height * of(FoundationOutput::PeakRotation));
+        sheared = sheared.max(of(FoundationOutput::PeakForce));
+    }
+    [moved, moved, accelerations.max(foundations), sheared, 0.0]
+}
+
 /// Follows the peaks of a run.
 #[derive(Default)]
 pub struct Watch {
     before: Vec<f64>,
+    /// Largest acceleration of a foundation that has been read, m/s2.
+    foundations: f64,
 }
 
+/// Rounding of a value, as a share of the terms that it is the sum of: 45 units in the last place, for two sums of up to
+/// a dozen modes each in another order, one of numbers that are sums themselves.
+const ROUNDING: f64 = 1e-14;
+
+/// Digits that a peak promises.
+const PROMISED: f64 = 1e-10;
+
 impl Watch {
-    /// What is wrong with the peaks of a run that has been read: none is below the value at that time, but for the digits that a peak
-    /// promises and the rounding of the quickest floor; none has fallen since the last time by
-    /// more than the rounding of floors that are held or of storeys far beyond their yield drift.
+    /// What is wrong with the peaks of a run that has been read: none is below the value at that time, but for the digits
+    /// that a peak promises and the rounding of the terms of the value, and no peak of a contact force by more than its
+    /// last digit; none has fallen since the last time by more than the rounding of floors that are held or of storeys far
+    /// beyond their yield drift.
     pub fn look(&mut self, run: &Run) -> Result<(), String> {
         let time = run.state.time();
-        let mut peaks = Vec::with_capacity(self.before.len());
-        for kind in all(run) {
-            let largest = kind.iter().fold(0.0, |largest: f64, read| largest.max(read.peak));
+        for side in [Side::Left, Side::Right] {
+            let now = run.read(Output::Foundation(side, FoundationOutput::Acceleration)).abs();
+            self.foundations = self.foundations.max(now);
+        }
+        let kinds = all(run);
+        let (sizes, mut peaks) = (sizes(run, &kinds, self.foundations), Vec::with_capacity(self.before.len()));
+        for (kind, size) in kinds.into_iter().zip(sizes) {
+            let promised = if size == 0.0 { f64::EPSILON } else { PROMISED };
             for Read { name, now, peak } in kind {
-                if now.abs() > peak + 1e-10 * peak + 1e-14 * largest {
+                if now.abs() > peak + promised * peak + ROUNDING * size {
                     return Err(format!("{name} at {time} s: {now:e} beyond its peak {peak:e}"));
                 }
                 if let Some(before) = self.before.get(peaks.len()).filter(|before| **before * (1.0 - 1e-11) > peak) {

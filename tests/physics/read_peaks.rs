@@ -2,7 +2,8 @@
 //! first scenes are those in which one of these was found not to hold.
 
 use crate::common::peaks::{Watch, all};
-use crate::common::{Run, scene};
+use crate::common::problems::two_masses::{Mass, TwoMasses};
+use crate::common::{Run, record, scene};
 use pounding::engine::{PeakOf, Side};
 use pounding::record::Record;
 
@@ -10,6 +11,7 @@ const PLASTIC_ROOF: &str = include_str!("../problems/peaks/perfectly_plastic_roo
 const DAMPED_ENTRY: &str = include_str!("../problems/peaks/damped_entry_while_yielding.toml");
 const PRESSED_AND_MOVING: &str = include_str!("../problems/peaks/pressed_and_moving.toml");
 const PRESSED_AT_REST: &str = include_str!("../problems/peaks/pressed_at_rest.toml");
+const STIFF_ON_SOIL: &str = include_str!("../problems/peaks/stiff_contacts_on_soil.toml");
 const MOVING_IN_CONTACT: &str = include_str!("../problems/peaks/moving_in_contact.toml");
 
 fn el_centro() -> Record {
@@ -54,6 +56,43 @@ fn a_force_counts_when_it_is_reached() {
         assert!(contact.peak_force <= promised, "{time} s: peak {:e} of a force up to {largest:e}", contact.peak_force);
     }
     assert!(largest > 1e3, "{largest} N");
+}
+
+/// Floors that press each other through a damped contact so stiff that its rate is hardly more than their rounding: the
+/// force at the end of a step is that of the rate of the floors, not of the series.
+#[test]
+fn a_force_counts_with_the_rate_of_the_floors() {
+    let t = |k: u32| f64::from(k) * 0.02;
+    let motion = |k: u32| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin();
+    check(STIFF_ON_SOIL, Some(&record(0.02, &(0..=10).map(motion).collect::<Vec<_>>())), 0.1);
+}
+
+/// A mass is pressed into a damped spring at a wall when another hits it: an impulse raises the rate of the spring at once,
+/// and with it its force, which falls from then on.
+#[test]
+fn a_force_counts_when_an_impulse_raises_it() {
+    let spring = "stiffness = 1e7\nrestitution = 0.05\n";
+    let law = format!(
+        "law = \"stereomechanical\"\nrestitution = 0.5\n\
+         [[contact]]\nleft_floor = 1\nwall = \"left\"\ngap = 1e-3\nlaw = \"kelvin_voigt_no_tension\"\n{spring}"
+    );
+    let masses = TwoMasses::new(Mass::free(1e5, -0.1), Mass::free(1e5, -1.0), 0.02, &law).toml();
+    let mut run = Run::new(&scene(&masses), None);
+    // The entry at the wall, and the impulse.
+    for _ in 0..2 {
+        run.model.handle_event(&mut run.state, &mut |_| {}).unwrap();
+        assert!(run.model.advance_to_event(&mut run.state, 0.1, &mut |_| {}).unwrap());
+    }
+    let contact = |run: &mut Run| {
+        run.model.observe(&run.state, &mut run.point);
+        run.contact(1)
+    };
+    let before = contact(&mut run).force;
+    run.model.handle_event(&mut run.state, &mut |_| {}).unwrap();
+    let now = contact(&mut run);
+    assert!(now.force > 3.0 * before && now.peak_force == now.force, "{before} N, then {now:?}");
+    let later = run.to(0.1).contact(1);
+    assert!(later.force < now.force && later.peak_force == now.peak_force, "{now:?}, then {later:?}");
 }
 
 /// A contact begins with a jump of the force at the very start: what was read before it counts.

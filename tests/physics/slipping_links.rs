@@ -48,7 +48,7 @@ fn shaking(factor: f64) -> Record {
 fn check(text: &str, links: &[Link], factor: f64, (yields, impacts): (usize, usize)) {
     let (scene, motion) = (shaken(text, links), shaking(factor));
     let times: Vec<f64> = (1..=110).map(|k| 0.05 * f64::from(k) + 0.003 * f64::from(k * 7 % 5)).collect();
-    let other = assert_same_motion(&scene, &motion, &times, 5e-11);
+    let other = assert_same_motion(&scene, &motion, &times, 5e-12);
     assert!(other.yields >= yields, "{} yields", other.yields);
     assert!(other.impacts >= impacts, "{} impacts", other.impacts);
 }

@@ -1,5 +1,5 @@
 //! Frames on soil, with storeys that yield, P-delta, contacts with floors and columns, and foundations that are linked through
-//! the soil, beside exponentials of the matrices of their phases (`physics/piecewise.rs`).
+//! the soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
 use crate::common::{Run, scene};
 use crate::piecewise::{Piecewise, assert_same_motion};
@@ -27,18 +27,18 @@ fn frames(left: &str, right: &str, more: &str) -> Scene {
     scene
 }
 
-fn same(scene: &Scene, tolerance: f64) -> (usize, usize) {
+fn same(scene: &Scene) -> (usize, usize) {
     let record = shaking();
     let times: Vec<f64> = (1..=60).map(|k| 0.1 * f64::from(k) + 0.003 * f64::from(k % 7)).collect();
-    let Piecewise { yields, impacts, .. } = assert_same_motion(scene, &record, &times, tolerance);
+    let Piecewise { yields, impacts, .. } = assert_same_motion(scene, &record, &times, 1e-12);
     (yields, impacts)
 }
 
 #[test]
 fn sway_alone_rocking_alone_and_both_under_either_building() {
     for motions in [SWAY.to_owned(), ROCKING.to_owned(), SWAY.to_owned() + ROCKING] {
-        same(&frames(&foundation("left", &motions), "", ""), 1e-11);
-        same(&frames("", &foundation("right", &motions), ""), 1e-11);
+        same(&frames(&foundation("left", &motions), "", ""));
+        same(&frames("", &foundation("right", &motions), ""));
     }
 }
 
@@ -47,7 +47,7 @@ fn storeys_yield_on_soil_with_and_without_gravity() {
     let soil = SWAY.to_owned() + ROCKING;
     for gravity in ["", GRAVITY] {
         let left = YIELDING.to_owned() + gravity + &foundation("left", &soil);
-        let (yields, _) = same(&frames(&left, &foundation("right", ROCKING), ""), 1e-11);
+        let (yields, _) = same(&frames(&left, &foundation("right", ROCKING), ""));
         assert!(yields > 10, "{yields} yields");
     }
 }
@@ -64,7 +64,7 @@ fn foundations_are_linked_through_the_soil_while_floors_meet() {
     ] {
         let left = YIELDING.to_owned() + GRAVITY + &foundation("left", &soil);
         let more = format!("[[link]]\n{link}[[contact]]\n{contact}{law}");
-        let (yields, impacts) = same(&frames(&left, &foundation("right", &soil), &more), 1e-10);
+        let (yields, impacts) = same(&frames(&left, &foundation("right", &soil), &more));
         assert!(yields > 5 && impacts > 2, "{yields} yields, {impacts} impacts");
     }
 }
@@ -76,7 +76,7 @@ fn floors_hit_columns_of_storeys_that_lean_with_their_foundation() {
         let columns = format!("left_storey = {storey}\nleft_position = 0.4\nright_floor = 1\ngap = 0.003\n");
         let contact = format!("[[contact]]\n{columns}law = \"linear\"\nstiffness = 2e7\n");
         let right = foundation("right", ROCKING);
-        let (_, impacts) = same(&frames(&foundation("left", &soil), &right, &contact), 1e-11);
+        let (_, impacts) = same(&frames(&foundation("left", &soil), &right, &contact));
         assert!(impacts > 2, "{impacts} impacts");
     }
 }

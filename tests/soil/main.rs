@@ -8,7 +8,7 @@ mod common;
 mod frames;
 mod inputs;
 mod invariants;
-#[path = "../physics/piecewise.rs"]
+#[path = "../physics/piecewise/mod.rs"]
 mod piecewise;
 mod random;
 #[path = "../problems/random_frames.rs"]

@@ -1,4 +1,4 @@
-//! Random frames on random soil, beside exponentials of the matrices of their phases (`physics/piecewise.rs`).
+//! Random frames on random soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
 use crate::common::problems::laws::contact;
 use crate::common::scene;
@@ -12,8 +12,10 @@ use proptest::test_runner::RngSeed;
 /// Hz. The other way takes steps that are short for the fastest motion.
 const FASTEST: f64 = 5.0;
 
-/// Rounding grows from impact to impact: 4e-9 is the most that has been seen, over 34 of them; 7e-11 without any.
-const ALLOWED: f64 = 1e-8;
+/// Where nothing is hit, the rounding of the other way adds up to 1e-12 in a million steps. Impacts multiply what there is,
+/// most where rebounds follow each other within milliseconds: to 2e-10 over 34 of them. With steps half as long the other
+/// way differs from itself by as much.
+const ALLOWED: f64 = 1e-9;
 
 /// The gap, and where columns of the left building are hit, share of their height; without it floors meet.
 fn meeting() -> impl Strategy<Value = (f64, Option<f64>)> {

@@ -232,6 +232,9 @@ impl Model {
             self.system.to_modes((oscillates, q, v), [&mut work.buffers.q, &mut work.buffers.v]);
             self.handle(base, event, &mut work.buffers, on_episode);
         }
+        // Rates are those of the floors from now on, of which the step has other last digits, and impulses elsewhere
+        // change them at once: the forces that are read from here on count.
+        base.raise_peak_forces();
         // The base has moved: the step that was planned from the old one means nothing.
         *kind = StepKind::NotPlanned;
     }

@@ -123,6 +123,14 @@ impl Base {
         self.contacts.iter().any(Contact::in_contact) || self.is_yielding()
     }
 
+    /// Raises the peak forces of contacts whose force depends on their rate to what they are at the base.
+    pub(super) fn raise_peak_forces(&mut self) {
+        let time = self.time();
+        for contact in self.contacts.iter_mut().filter(|contact| contact.branch().is_damped()) {
+            contact.raise_peak(contact.present_force(), time);
+        }
+    }
+
     /// Time of the base, s.
     pub(super) fn time(&self) -> f64 {
         self.segment.start + self.elapsed
