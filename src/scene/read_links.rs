@@ -12,14 +12,7 @@ const FLOOR: &str = "a floor, counted from 1";
 
 /// All links of a scene.
 pub(super) fn all(root: &mut Section<'_>, units: Units) -> Vec<Link> {
-    let tables = root.get("link").and_then(|item| match item.is_table() {
-        false => item.list("[[link]] tables"),
-        true => {
-            item.refuse("[[link]], with two brackets on either side, above every link");
-            None
-        }
-    });
-    tables.iter().flatten().map(|item| link(item.section(), units)).collect()
+    root.get("link").iter().flat_map(|item| item.tables("link")).map(|section| link(section, units)).collect()
 }
 
 fn link(mut section: Section<'_>, units: Units) -> Link {
