@@ -28,7 +28,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
         }
     }
     let about = text.trim_start().strip_prefix('#').map_or_else(String::new, |rest| excerpt(first_line(rest)));
-    Ok(Accelerogram { format: Format::Csv, about, channels: Vec::new(), record: reading.complete()? })
+    reading.accelerogram(Format::Csv, about)
 }
 
 fn first_line(text: &str) -> &str {
