@@ -7,11 +7,11 @@ use crate::figures::six_decimals;
 use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side};
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         order::look_at_heights(side, facts.building(side), found);
         look_at_unit_of_heights(facts.scene, side, found);
     }
-    if [Side::Left, Side::Right].iter().any(|side| found.has(&format!("{side}.height"))) {
+    if Side::BOTH.iter().any(|side| found.has(&format!("{side}.height"))) {
         return;
     }
     if let Some(tolerance) = facts.scene.facing {
