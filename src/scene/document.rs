@@ -188,7 +188,7 @@ impl<'t> Item<'t> {
     }
 
     /// What has been made of the value; where that is nothing, it is refused.
-    fn found<T>(&self, value: Option<T>, expected: impl Into<String>) -> Option<T> {
+    pub(super) fn found<T>(&self, value: Option<T>, expected: impl Into<String>) -> Option<T> {
         if value.is_none() {
             self.refuse(expected);
         }

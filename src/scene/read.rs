@@ -200,14 +200,9 @@ fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> O
     let ratio = match ratio {
         None => vec![0.0; force.len()],
         Some(item) if item.is_number() => {
-            let ratio = item.number();
-            match rule::POST_YIELD_RATIO.holds(ratio) {
-                true => vec![ratio; force.len()],
-                false => {
-                    item.refuse(rule::POST_YIELD_RATIO.expected(Units::Si));
-                    vec![0.0; force.len()]
-                }
-            }
+            let rule = rule::POST_YIELD_RATIO;
+            let ratio = Some(item.number()).filter(|ratio| rule.holds(*ratio));
+            vec![item.found(ratio, rule.expected(Units::Si)).unwrap_or(0.0); force.len()]
         }
         Some(item) => item.numbers(),
     };

@@ -193,8 +193,7 @@ fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &m
             let Some(index) = ratios.iter().position(|&ratio| odd_damping(ratio).is_some()) else { return };
             (format!("{path}.ratios[{}]", index + 1), ratios[index])
         }
-        Damping::Dashpots(storeys) => return look_at_dashpots(facts, side, storeys, found),
-        Damping::Matrix(rows) => return look_at_damping_matrix(facts, side, rows, found),
+        Damping::Dashpots(_) | Damping::Matrix(_) => return look_at_first_mode(facts, side, found),
     };
     if let Some(text) = odd_damping(ratio) {
         let meant = if ratio > MOST_DAMPING { percent(ratio) } else { String::new() };
@@ -217,42 +216,42 @@ fn odd_damping(ratio: f64) -> Option<String> {
     Some(format!("{meaning}; 1 is critical damping and buildings have 0.01 to 0.1"))
 }
 
-/// The dashpots may be those of isolators, which have three tenths of critical damping and more.
-fn look_at_dashpots(facts: &Facts<'_>, side: Side, storeys: &[f64], found: &mut Found) {
+/// Dashpots and matrices, by the damping that they give to the first mode. Dashpots may be those of isolators, which have three
+/// tenths of critical damping and more.
+fn look_at_first_mode(facts: &Facts<'_>, side: Side, found: &mut Found) {
     const MOST_OF_ISOLATORS: f64 = 1.0;
-    let Some(first) = facts.swinging(side) else { return };
-    let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
-    let damped: f64 = storeys.iter().zip(drifts).map(|(c, drift)| c * drift * drift).sum();
-    let ratio = ratio_of(first, damped, facts.building(side));
-    if ratio > MOST_OF_ISOLATORS || ratio > 0.0 && ratio < LEAST_DAMPING {
-        let text = odd_first_mode(ratio, facts.scene.units);
-        found.quantities(format!("{}.damping.dashpots", side), storeys, text);
+    let (Some(first), building) = (facts.swinging(side), facts.building(side)) else { return };
+    let (damped, most): (f64, f64) = match &building.damping {
+        Damping::Dashpots(storeys) => {
+            let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
+            (storeys.iter().zip(drifts).map(|(c, drift)| c * drift * drift).sum(), MOST_OF_ISOLATORS)
+        }
+        Damping::Matrix(rows) => {
+            let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
+            (rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum(), MOST_DAMPING)
+        }
+        Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => return,
+    };
+    let ratio = ratio_of(first, damped, building);
+    if !(ratio > most || ratio > 0.0 && ratio < LEAST_DAMPING) {
+        return;
     }
-}
-
-fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], found: &mut Found) {
-    let Some(first) = facts.swinging(side) else { return };
-    let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
-    let damped: f64 = rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum();
-    let ratio = ratio_of(first, damped, facts.building(side));
-    if odd_damping(ratio).is_some() {
-        let text = odd_first_mode(ratio, facts.scene.units);
-        found.matrix(format!("{}.damping.matrix", side), rows, text);
+    let text = format!(
+        "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they given \
+         in another unit?",
+        short(ratio),
+        facts.scene.units.unit("N s/m")
+    );
+    match &building.damping {
+        Damping::Dashpots(storeys) => found.quantities(format!("{side}.damping.dashpots"), storeys, text),
+        Damping::Matrix(rows) => found.matrix(format!("{side}.damping.matrix"), rows, text),
+        Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => {}
     }
 }
 
 /// Ratio of critical damping of the first mode: shape' C shape = 2 ratio omega shape' M shape.
 fn ratio_of(first: &FirstMode, damped: f64, building: &Building) -> f64 {
     damped / (2.0 * first.omega * inertia_of(first, building))
-}
-
-fn odd_first_mode(ratio: f64, units: Units) -> String {
-    format!(
-        "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they given \
-         in another unit?",
-        short(ratio),
-        units.unit("N s/m")
-    )
 }
 
 /// Initial motion beyond what a building stands.

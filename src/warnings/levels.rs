@@ -91,7 +91,8 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
     let [Some(left), Some(right)] = [&scene.left.heights, &scene.right.heights] else { return };
     for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {
         let base = other.base_level;
-        let is_met = |floor: usize| scene.contacts.iter().any(|pair| has_floor(pair, side, floor));
+        let has = |pair: &ContactPair, floor: usize| [pair.left, pair.right].contains(&Face::Floor(side, floor));
+        let is_met = |floor: usize| scene.contacts.iter().any(|pair| has(pair, floor));
         let buried =
             (1..=own.storeys.len()).find(|floor| own.level(*floor) <= base + LEVEL_ROUNDING && !is_met(*floor));
         if let Some(floor) = buried {
@@ -104,10 +105,6 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
             found.number(format!("{}.base_level", side.opposite()), base, text);
         }
     }
-}
-
-fn has_floor(pair: &ContactPair, side: Side, floor: usize) -> bool {
-    [pair.left, pair.right].contains(&Face::Floor(side, floor))
 }
 
 /// A pair whose faces are not at one level.
