@@ -2,7 +2,7 @@
 //! and the bound on its error, h^4/384 max|y''''| \[BirkhoffPriver1967\].
 
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
-use crate::engine::quantities::rows::{Block, values_of};
+use crate::engine::quantities::rows::{Block, sums_of, values_of};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
@@ -46,34 +46,8 @@ pub fn slopes_of(
 ) -> Course {
     let [v, end_v, slow, quick] =
         [flight.start.1, flight.end.1, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
-    sum_course(block, [v, first, end_v, last], [slow, quick])
-}
-
-/// The same from the modes' v and accelerations at both ends and the factors of the bounds.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> Course {
-    let count = block.on_q.len();
-    // Equal lengths: no bounds checks below.
-    let [v, a, end_v, end_a] = ends.map(|vector| &vector[..count]);
-    let (slow, quick) = (&slow[..count], &quick[..count]);
-    let mut course = Course::default();
-    let Course { start: [_, rate], end: [_, end_rate], fourth } = &mut course;
-    for m in 0..count {
-        let row = &block.on_q[m];
-        for i in 0..LANES {
-            rate[i] += row[i] * v[m];
-            end_rate[i] += row[i] * end_v[m];
-            fourth[i] += row[i].abs() * slow[m];
-        }
-    }
-    for (m, row) in block.on_v.iter().enumerate().take(count) {
-        for i in 0..LANES {
-            rate[i] += row[i] * a[m];
-            end_rate[i] += row[i] * end_a[m];
-            fourth[i] += row[i].abs() * quick[m];
-        }
-    }
-    course
+    let [rate, end_rate, fourth] = sums_of(block, [(v, first), (end_v, last)], (slow, quick));
+    Course { start: [[0.0; LANES], rate], end: [[0.0; LANES], end_rate], fourth }
 }
 
 impl Course {

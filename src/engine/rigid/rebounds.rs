@@ -23,7 +23,7 @@ impl System {
     pub(crate) fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.tracked);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
-            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
+            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row.modes, acceleration))
         };
         apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
@@ -71,7 +71,7 @@ impl System {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             tracked[p] = contact.tracked.then(|| {
                 let terms = &mut scalar[..=series.order];
-                let noise = pair.noise(pair.project(base.coordinates, series, powers.in_time().0, terms));
+                let noise = pair.noise(pair.row.project(base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
                 let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
@@ -81,7 +81,7 @@ impl System {
 
     /// Whether a rigid pair at this penetration, m, is to be tracked.
     pub(crate) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
-        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
+        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].row.difference(coordinates, q).1)
     }
 }
 
