@@ -1,7 +1,8 @@
 //! Names that may stand for a C identifier, as FMI wants of a model.
 
 /// Keywords of C11 and C23, set apart by blanks.
-const KEYWORDS: &str = "alignas alignof auto bool break case char const constexpr continue default do double else enum extern false \
+const KEYWORDS: &str = "\
+    alignas alignof auto bool break case char const constexpr continue default do double else enum extern false \
     float for goto if inline int long nullptr register restrict return short signed sizeof static static_assert \
     struct switch thread_local true typedef typeof typeof_unqual union unsigned void volatile while _Alignas \
     _Alignof _Atomic _BitInt _Bool _Complex _Decimal128 _Decimal32 _Decimal64 _Generic _Imaginary _Noreturn \

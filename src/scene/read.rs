@@ -58,7 +58,8 @@ impl<'t> Draft<'t> {
         }
         let mut problems = self.problems;
         let spans = document::spans(&document::parse(self.text)?);
-        problems.sort_by_cached_key(|problem| position(&problem.path, &spans));
+        // A missing key has the position of the table that lacks it.
+        problems.sort_by_cached_key(|problem| document::place(&problem.path, &spans).unwrap_or_default());
         Err(SceneError { problems })
     }
 }
@@ -71,11 +72,6 @@ fn tell_of_facing(problems: &mut Vec<Problem>) {
     }
     let mut told = HashSet::new();
     problems.retain(|problem| !problem.path.starts_with("facing") || told.insert(problem.path.clone()));
-}
-
-/// Position of a path in the text; a missing key has the position of the table that lacks it.
-fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
-    document::place(path, spans).unwrap_or_default()
 }
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds

@@ -47,7 +47,8 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
         dashpot: quantity(&dashpot).unwrap_or_default(),
         slip: quantity(&force).map(|force| Slip { force, ratio }),
     };
-    if let Some(item) = stiffness.or(dashpot).filter(|_| link.is_nothing()) {
+    let is_nothing = link.slip.is_none() && link.stiffness == 0.0 && link.dashpot == 0.0;
+    if let Some(item) = stiffness.or(dashpot).filter(|_| is_nothing) {
         item.refuse("a stiffness > 0, or a dashpot > 0: nothing would be there");
     }
     link

@@ -1,6 +1,6 @@
 //! What the rules have found.
 
-use crate::scene::{Units, excerpt, matrix_text, number, numbers, quoted};
+use crate::scene::{Units, excerpt, matrix_text, number, numbers};
 use std::fmt;
 
 /// One thing that looks like a slip.
@@ -77,10 +77,6 @@ impl Found {
 
     pub(super) fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
         self.add(path, excerpt(&numbers(values)), text);
-    }
-
-    pub(super) fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
-        self.add(path, quoted(value), text);
     }
 
     pub(super) fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
