@@ -34,11 +34,7 @@ impl Rule {
 
     /// With more nodes, if there is one.
     pub(crate) fn next(self) -> Option<Rule> {
-        match self {
-            Rule::Eight => Some(Rule::Twelve),
-            Rule::Twelve => Some(Rule::Sixteen),
-            Rule::Sixteen => None,
-        }
+        Rule::ALL.get(self as usize + 1).copied()
     }
 }
 

@@ -72,27 +72,18 @@ impl Map {
 
     /// The same map without square roots at the end.
     pub(crate) fn without_end(self) -> Map {
-        match self {
-            Map::SquareEnd => Map::Plain,
-            Map::SquareBoth => Map::SquareStart,
-            Map::FourthBoth => Map::FourthStart,
-            _ => self,
-        }
+        Map::ALL[self as usize % 3]
     }
 
     /// The same map with polynomials for square roots of the time left until the end.
     pub(crate) fn with_end(self) -> Map {
-        match self {
-            Map::Plain => Map::SquareEnd,
-            Map::SquareStart => Map::SquareBoth,
-            Map::FourthStart => Map::FourthBoth,
-            _ => self,
-        }
+        Map::ALL[self as usize % 3 + 3]
     }
 
     /// Without fourth roots.
     pub(crate) const SQUARE: [Map; 4] = [Map::Plain, Map::SquareStart, Map::SquareEnd, Map::SquareBoth];
 
+    /// In the order of their numbers: the three without square roots at the end, and the same with them.
     pub(crate) const ALL: [Map; 6] =
         [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }

@@ -24,6 +24,25 @@ pub struct FormulaInfo {
     pub defect: &'static str,
 }
 
+/// One whose spring is that of the law; where it comes from and what is wrong with it follow.
+const fn formula(name: &'static str, formula: &'static str, coefficient: fn(e: f64) -> f64) -> FormulaInfo {
+    FormulaInfo { name, formula, coefficient, spring_factor: 1.0, source: "", defect: "" }
+}
+
+impl FormulaInfo {
+    const fn with_spring(self, spring_factor: f64) -> FormulaInfo {
+        FormulaInfo { spring_factor, ..self }
+    }
+
+    const fn from(self, source: &'static str) -> FormulaInfo {
+        FormulaInfo { source, ..self }
+    }
+
+    const fn but(self, defect: &'static str) -> FormulaInfo {
+        FormulaInfo { defect, ..self }
+    }
+}
+
 impl DampingFormula {
     /// a for a coefficient of restitution 0 < e <= 1.
     pub fn coefficient(self, e: f64) -> f64 {
@@ -35,144 +54,79 @@ catalogue! {
     /// A formula for a(e), dimensionless.
     DampingFormula: FormulaInfo {
         /// Eq. 10 of the seed paper.
-        LankaraniNikravesh = FormulaInfo {
-            name: "lankarani_nikravesh",
-            formula: "a = 3 (1 - e^2) / 4",
-            coefficient: |e| 0.75 * (1.0 - e * e),
-            spring_factor: 1.0,
-            source: "[LankaraniNikravesh1990], [BarrosKhatami2013, eq. 10]",
-            defect: "made for e near 1: a cannot exceed 3/4, so that no impact returns less than 0.663; returns \
-                     0.725 for e = 0.5",
-        },
+        LankaraniNikravesh = formula("lankarani_nikravesh", "a = 3 (1 - e^2) / 4", |e| 0.75 * (1.0 - e * e))
+            .from("[LankaraniNikravesh1990], [BarrosKhatami2013, eq. 10]")
+            .but("made for e near 1: a cannot exceed 3/4, so that no impact returns less than 0.663; returns 0.725 \
+                  for e = 0.5"),
         /// Eq. 11 of the seed paper as printed, which no derivation gives.
-        YePrinted = FormulaInfo {
-            name: "ye_printed",
-            formula: "a = 3 (1 - e^2) / (8 e)",
-            coefficient: |e| 0.375 * (1.0 - e * e) / e,
-            spring_factor: 1.0,
-            source: "[BarrosKhatami2013, eq. 11]",
-            defect: "dissipates half of what is needed as e goes to 1, and the same as `lankarani_nikravesh` at \
-                     e = 0.5; returns 0.725 for e = 0.5",
-        },
+        YePrinted = formula("ye_printed", "a = 3 (1 - e^2) / (8 e)", |e| 0.375 * (1.0 - e * e) / e)
+            .from("[BarrosKhatami2013, eq. 11]")
+            .but("dissipates half of what is needed as e goes to 1, and the same as `lankarani_nikravesh` at e = \
+                  0.5; returns 0.725 for e = 0.5"),
         /// That of Ye, Li and Zhu.
-        Ye = FormulaInfo {
-            name: "ye",
-            formula: "a = 8 (1 - e) / (5 e)",
-            coefficient: |e| 1.6 * (1.0 - e) / e,
-            spring_factor: 1.0,
-            source: "[YeLiZhu2009], [Flores2011]",
-            defect: "dissipates 7 % more than needed as e goes to 1; returns 0.470 for e = 0.5",
-        },
+        Ye = formula("ye", "a = 8 (1 - e) / (5 e)", |e| 1.6 * (1.0 - e) / e)
+            .from("[YeLiZhu2009], [Flores2011]")
+            .but("dissipates 7 % more than needed as e goes to 1; returns 0.470 for e = 0.5"),
         /// Eq. 14 of the seed paper with its K_l in spring and damper.
-        BarrosKhatami = FormulaInfo {
-            name: "barros_khatami",
-            formula: "a = 8 (1 - e) / (5 e), spring 3 k / 2",
-            coefficient: |e| 1.6 * (1.0 - e) / e,
-            spring_factor: 1.5,
-            source: "[BarrosKhatami2013, eq. 14]",
-            defect: "`ye` under a stiffer spring, which changes the force and not what is returned; returns 0.470 for \
-                     e = 0.5",
-        },
+        BarrosKhatami = formula("barros_khatami", "a = 8 (1 - e) / (5 e), spring 3 k / 2", |e| 1.6 * (1.0 - e) / e)
+            .with_spring(1.5)
+            .from("[BarrosKhatami2013, eq. 14]")
+            .but("`ye` under a stiffer spring, which changes the force and not what is returned; returns 0.470 for \
+                  e = 0.5"),
         /// Eq. 14 of the seed paper with its K_l in the damper alone.
-        BarrosKhatamiDamper = FormulaInfo {
-            name: "barros_khatami_damper",
-            formula: "a = 24 (1 - e) / (10 e)",
-            coefficient: |e| 2.4 * (1.0 - e) / e,
-            spring_factor: 1.0,
-            source: "[BarrosKhatami2013, eq. 14]",
-            defect: "dissipates 60 % more than needed as e goes to 1; returns 0.363 for e = 0.5",
-        },
+        BarrosKhatamiDamper = formula("barros_khatami_damper", "a = 24 (1 - e) / (10 e)", |e| 2.4 * (1.0 - e) / e)
+            .from("[BarrosKhatami2013, eq. 14]")
+            .but("dissipates 60 % more than needed as e goes to 1; returns 0.363 for e = 0.5"),
         /// The inverse of what an impact returns.
-        Exact = FormulaInfo {
-            name: "exact",
-            formula: "a (1 + e) = ln[(1 + a) / (1 - a e)]",
-            coefficient: exact,
-            spring_factor: 1.0,
-            source: "[Gonthier2004]",
-            defect: "none: returns 0.500 for e = 0.5",
-        },
+        Exact = formula("exact", "a (1 + e) = ln[(1 + a) / (1 - a e)]", exact)
+            .from("[Gonthier2004]")
+            .but("none: returns 0.500 for e = 0.5"),
         /// The first to put the damping on the spring force.
-        HuntCrossley = FormulaInfo {
-            name: "hunt_crossley",
-            formula: "a = 3 (1 - e) / 2",
-            coefficient: |e| 1.5 * (1.0 - e),
-            spring_factor: 1.0,
-            source: "[HuntCrossley1975]",
-            defect: "made for e near 1: no impact returns less than 0.488; returns 0.663 for e = 0.5",
-        },
+        HuntCrossley = formula("hunt_crossley", "a = 3 (1 - e) / 2", |e| 1.5 * (1.0 - e))
+            .from("[HuntCrossley1975]")
+            .but("made for e near 1: no impact returns less than 0.488; returns 0.663 for e = 0.5"),
         /// That of Herbert and McWhannell.
-        HerbertMcWhannell = FormulaInfo {
-            name: "herbert_mcwhannell",
-            formula: "a = 6 (1 - e) / ((2 e - 1)^2 + 3)",
-            coefficient: |e| 6.0 * (1.0 - e) / ((2.0 * e - 1.0) * (2.0 * e - 1.0) + 3.0),
-            spring_factor: 1.0,
-            source: "[HerbertMcWhannell1977]",
-            defect: "no impact returns less than 0.488; returns 0.594 for e = 0.5",
-        },
+        HerbertMcWhannell = formula(
+            "herbert_mcwhannell", "a = 6 (1 - e) / ((2 e - 1)^2 + 3)",
+            |e| 6.0 * (1.0 - e) / ((2.0 * e - 1.0) * (2.0 * e - 1.0) + 3.0),
+        )
+            .from("[HerbertMcWhannell1977]")
+            .but("no impact returns less than 0.488; returns 0.594 for e = 0.5"),
         /// That of Lee and Wang.
-        LeeWang = FormulaInfo {
-            name: "lee_wang",
-            formula: "a = 3 (1 - e) / 4",
-            coefficient: |e| 0.75 * (1.0 - e),
-            spring_factor: 1.0,
-            source: "[LeeWang1983]",
-            defect: "dissipates half of what is needed as e goes to 1, and no impact returns less than 0.663; returns \
-                     0.799 for e = 0.5",
-        },
+        LeeWang = formula("lee_wang", "a = 3 (1 - e) / 4", |e| 0.75 * (1.0 - e))
+            .from("[LeeWang1983]")
+            .but("dissipates half of what is needed as e goes to 1, and no impact returns less than 0.663; returns \
+                  0.799 for e = 0.5"),
         /// The fit that goes with the exact relation.
-        Gonthier = FormulaInfo {
-            name: "gonthier",
-            formula: "a = (1 - e^2) / e",
-            coefficient: |e| (1.0 - e * e) / e,
-            spring_factor: 1.0,
-            source: "[Gonthier2004]",
-            defect: "dissipates a third more than needed as e goes to 1; returns 0.488 for e = 0.5",
-        },
+        Gonthier = formula("gonthier", "a = (1 - e^2) / e", |e| (1.0 - e * e) / e)
+            .from("[Gonthier2004]")
+            .but("dissipates a third more than needed as e goes to 1; returns 0.488 for e = 0.5"),
         /// That of Zhiying and Qishao.
-        ZhiyingQishao = FormulaInfo {
-            name: "zhiying_qishao",
-            formula: "a = 3 (1 - e^2) exp(2 (1 - e)) / 4",
-            coefficient: |e| 0.75 * (1.0 - e * e) * libm::exp(2.0 * (1.0 - e)),
-            spring_factor: 1.0,
-            source: "[ZhiyingQishao2006]",
-            defect: "no impact returns less than 0.179; returns 0.483 for e = 0.5",
-        },
+        ZhiyingQishao = formula(
+            "zhiying_qishao", "a = 3 (1 - e^2) exp(2 (1 - e)) / 4",
+            |e| 0.75 * (1.0 - e * e) * libm::exp(2.0 * (1.0 - e)),
+        )
+            .from("[ZhiyingQishao2006]")
+            .but("no impact returns less than 0.179; returns 0.483 for e = 0.5"),
         /// That of Gharib and Hurmuzlu.
-        GharibHurmuzlu = FormulaInfo {
-            name: "gharib_hurmuzlu",
-            formula: "a = 1 / e",
-            coefficient: |e| 1.0 / e,
-            spring_factor: 1.0,
-            source: "[GharibHurmuzlu2012]",
-            defect: "made for e near 0: dissipates even at e = 1; returns 0.411 for e = 0.5",
-        },
+        GharibHurmuzlu = formula("gharib_hurmuzlu", "a = 1 / e", |e| 1.0 / e)
+            .from("[GharibHurmuzlu2012]")
+            .but("made for e near 0: dissipates even at e = 1; returns 0.411 for e = 0.5"),
         /// That of Hu and Guo.
-        HuGuo = FormulaInfo {
-            name: "hu_guo",
-            formula: "a = 3 (1 - e) / (2 e)",
-            coefficient: |e| 1.5 * (1.0 - e) / e,
-            spring_factor: 1.0,
-            source: "[HuGuo2015]",
-            defect: "off by up to 0.034; returns 0.488 for e = 0.5",
-        },
+        HuGuo = formula("hu_guo", "a = 3 (1 - e) / (2 e)", |e| 1.5 * (1.0 - e) / e)
+            .from("[HuGuo2015]")
+            .but("off by up to 0.034; returns 0.488 for e = 0.5"),
         /// That of Safaeifar and Farshidianfar.
-        SafaeifarFarshidianfar = FormulaInfo {
-            name: "safaeifar_farshidianfar",
-            formula: "a = 5 (1 - e) / (4 e)",
-            coefficient: |e| 1.25 * (1.0 - e) / e,
-            spring_factor: 1.0,
-            source: "[SafaeifarFarshidianfar2020]",
-            defect: "dissipates a sixth less than needed as e goes to 1; returns 0.536 for e = 0.5",
-        },
+        SafaeifarFarshidianfar = formula("safaeifar_farshidianfar", "a = 5 (1 - e) / (4 e)", |e| 1.25 * (1.0 - e) / e)
+            .from("[SafaeifarFarshidianfar2020]")
+            .but("dissipates a sixth less than needed as e goes to 1; returns 0.536 for e = 0.5"),
         /// The explicit formula nearest to the exact one.
-        CarvalhoMartins = FormulaInfo {
-            name: "carvalho_martins",
-            formula: "a = 3 (1 - e) (11 - e) / (2 (1 + 9 e))",
-            coefficient: |e| 1.5 * (1.0 - e) * (11.0 - e) / (1.0 + 9.0 * e),
-            spring_factor: 1.0,
-            source: "[CarvalhoMartins2019]",
-            defect: "returns 0.500 for e = 0.5 and is within 2e-4 from there to 1, but returns 0.129 for e = 0.1",
-        },
+        CarvalhoMartins = formula(
+            "carvalho_martins", "a = 3 (1 - e) (11 - e) / (2 (1 + 9 e))",
+            |e| 1.5 * (1.0 - e) * (11.0 - e) / (1.0 + 9.0 * e),
+        )
+            .from("[CarvalhoMartins2019]")
+            .but("returns 0.500 for e = 0.5 and is within 2e-4 from there to 1, but returns 0.129 for e = 0.1"),
     }
 }
 

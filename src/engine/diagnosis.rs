@@ -172,7 +172,7 @@ impl Model {
                 self.system.structure.omega2[range.clone()].iter().fold(0.0_f64, |most, w2| most.max(w2.sqrt()));
             (omega, self.system.structure.damping[range].iter().fold(0.0_f64, |most, c| most.max(*c)))
         };
-        let [left, right] = [Side::Left, Side::Right].map(fastest);
+        let [left, right] = Side::BOTH.map(fastest);
         let (name, (omega, damping)) =
             if left.0.max(left.1) >= right.0.max(right.1) { ("left", left) } else { ("right", right) };
         match damping > 2.0 * omega {

@@ -234,15 +234,13 @@ impl System {
 
     /// Work over a flight of any length without damping losses and under a constant load.
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
-        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.fly(base, length, work, (&mut q, &mut v));
+        self.fly_in(work, base, length);
         let modal = &mut work.account.modal;
-        let [from, to] = [(&base.q, &base.v), (&q, &v)].map(|(q, v)| {
+        let [from, to] = [(&base.q, &base.v), (&work.q, &work.v)].map(|(q, v)| {
             let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
             dot(&self.structure.participation, q)
         });
         done.input -= base.segment.acceleration_at(base.elapsed) * (to - from);
-        (work.q, work.v) = (q, v);
     }
 
     /// Work over a flight of any length without forces on the floors, as over whole segments.
@@ -256,9 +254,7 @@ impl System {
             done.viscous += flight.viscous;
             counts
         });
-        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.fly(base, length, work, (&mut q, &mut v));
-        (work.q, work.v) = (q, v);
+        self.fly_in(work, base, length);
     }
 
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.

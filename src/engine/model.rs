@@ -61,8 +61,7 @@ impl Model {
             peak_rows,
             oscillating_rows,
             resistance: FloorResistance::of(structure),
-            frequencies: [Side::Left, Side::Right]
-                .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
+            frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
             identity: next_identity(),

@@ -191,7 +191,7 @@ impl Model {
     /// An element is not beyond its limits, and at one of them where it yields or has just turned.
     fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
         for (of, (storey, centre)) in self.system.elements(&base.storeys) {
-            let (drift, size) = of.drift_at(base);
+            let (drift, size) = (of.row.value_at(base), of.row.size_at(base));
             let rounding = AT_LIMIT * (of.limit + size);
             let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) <= rounding);
             let is_at = |sense: Sense| of.excess(centre, sense, drift).abs() <= rounding;

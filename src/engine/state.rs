@@ -6,7 +6,7 @@ use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
 use crate::engine::base::{Account, Base};
 use crate::engine::energy::Accounting;
-use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
+use crate::engine::excitation::inputs::{Input, Inputs};
 use crate::engine::flight::log::FlightLog;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
@@ -97,20 +97,18 @@ impl State {
     /// Sets an input at the present time, in its unit. It is constant from now on, unless a rate is set for the same
     /// time. One that the scene does not have is left alone.
     pub fn set_input(&mut self, input: Input, value: f64) {
-        let before = self.inputs.get(input);
-        self.inputs.set(input, value, self.time);
-        self.look_at_change(before, input);
+        self.change(input, |inputs, time| inputs.set(input, value, time));
     }
 
     /// Sets the rate of an input, per second, from now on until the input or its rate is set again.
     pub fn set_input_rate(&mut self, input: Input, rate: f64) {
-        let before = self.inputs.get(input);
-        self.inputs.set_rate(input, rate, self.time);
-        self.look_at_change(before, input);
+        self.change(input, |inputs, time| inputs.set_rate(input, rate, time));
     }
 
     /// Where an input goes on in another way than before, so does a step that an event has interrupted.
-    fn look_at_change(&mut self, before: LinearInput, input: Input) {
+    fn change(&mut self, input: Input, change: impl FnOnce(&mut Inputs, f64)) {
+        let before = self.inputs.get(input);
+        change(&mut self.inputs, self.time);
         let now = self.inputs.get(input);
         let is_same = (before.at(self.time), before.slope()) == (now.at(self.time), now.slope());
         if !is_same && !self.has_event() {
@@ -204,7 +202,7 @@ impl Model {
 
     /// The initial state at a time, s, with all inputs 0.
     pub fn start(&self, time: f64) -> State {
-        let floors = [Side::Left, Side::Right].map(|side| self.floors(side));
+        let floors = Side::BOTH.map(|side| self.floors(side));
         self.start_with(time, Inputs::of(floors, self.system.floor_forces))
     }
 

@@ -16,49 +16,30 @@ pub(crate) type Coefficients = [f64; MAX_TERMS];
 /// 1 for each power.
 pub(crate) const ALL: Coefficients = [1.0; MAX_TERMS];
 
+/// A number for each power, from a constant formula in its whole number `n`.
+macro_rules! of_powers {
+    ($count:expr, |$n:ident| $number:expr) => {{
+        let (mut table, mut power) = ([0.0; $count], 0);
+        while power < $count {
+            let $n = power as i64;
+            table[power] = $number;
+            power += 1;
+        }
+        table
+    }};
+}
+
 /// n for each power n.
-pub(crate) const COUNT: Coefficients = {
-    let mut table = [0.0; MAX_TERMS];
-    let mut n = 0;
-    while n < MAX_TERMS {
-        table[n] = n as f64;
-        n += 1;
-    }
-    table
-};
+pub(crate) const COUNT: Coefficients = of_powers!(MAX_TERMS, |n| n as f64);
 
 /// n (n-1) for each power n: factors of the second derivative.
-pub(crate) const SECOND: Coefficients = {
-    let mut table = [0.0; MAX_TERMS];
-    let mut n = 1;
-    while n < MAX_TERMS {
-        table[n] = (n * (n - 1)) as f64;
-        n += 1;
-    }
-    table
-};
+pub(crate) const SECOND: Coefficients = of_powers!(MAX_TERMS, |n| (n * (n - 1)) as f64);
 
 /// n (n-1) (n-2) (n-3) for each power n: factors of the fourth derivative.
-pub(crate) const FOURTH: Coefficients = {
-    let mut table = [0.0; MAX_TERMS];
-    let mut n = 4;
-    while n < MAX_TERMS {
-        table[n] = (n * (n - 1) * (n - 2) * (n - 3)) as f64;
-        n += 1;
-    }
-    table
-};
+pub(crate) const FOURTH: Coefficients = of_powers!(MAX_TERMS, |n| (n * (n - 1) * (n - 2) * (n - 3)) as f64);
 
 /// 1/(n + 1) for each power n, and for one power more: factors of the integral.
-pub(crate) const RECIPROCAL: [f64; MAX_TERMS + 1] = {
-    let mut table = [0.0; MAX_TERMS + 1];
-    let mut n = 0;
-    while n < MAX_TERMS + 1 {
-        table[n] = 1.0 / (n + 1) as f64;
-        n += 1;
-    }
-    table
-};
+pub(crate) const RECIPROCAL: [f64; MAX_TERMS + 1] = of_powers!(MAX_TERMS + 1, |n| 1.0 / (n + 1) as f64);
 
 /// The numbers `of(0)`, `of(1)`, ... of one block: unlike `std::array::from_fn` it is always unrolled.
 #[inline(always)]

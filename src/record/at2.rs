@@ -38,7 +38,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     }
     reading.check_count(line, "NPTS", samples);
     let about = header.get(1).map_or_else(String::new, |(_, line)| excerpt(line));
-    Ok(Accelerogram { format: Format::PeerAt2, about, channels: Vec::new(), record: reading.complete()? })
+    reading.accelerogram(Format::PeerAt2, about)
 }
 
 /// The line of the header that says it: the fourth, or a later one where a title goes on.

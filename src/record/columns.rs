@@ -12,33 +12,27 @@ const MOST_HEADER_LINES: usize = 100;
 /// What sets the two columns apart, and what the decimals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Separators {
-    column: Separator,
+    /// A blank for any number of them.
+    column: char,
     has_decimal_comma: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Separator {
-    Semicolon,
-    Comma,
-    Blanks,
 }
 
 /// In the order in which they are tried: a decimal comma only where no comma can set columns apart.
 const KNOWN: [Separators; 5] = [
-    Separators { column: Separator::Semicolon, has_decimal_comma: false },
-    Separators { column: Separator::Semicolon, has_decimal_comma: true },
-    Separators { column: Separator::Comma, has_decimal_comma: false },
-    Separators { column: Separator::Blanks, has_decimal_comma: false },
-    Separators { column: Separator::Blanks, has_decimal_comma: true },
+    Separators { column: ';', has_decimal_comma: false },
+    Separators { column: ';', has_decimal_comma: true },
+    Separators { column: ',', has_decimal_comma: false },
+    Separators { column: ' ', has_decimal_comma: false },
+    Separators { column: ' ', has_decimal_comma: true },
 ];
 
 impl Separators {
+    /// A separator at the end of a row sets nothing apart.
     fn fields(self, row: &str) -> Vec<&str> {
         let row = row.trim();
         match self.column {
-            Separator::Blanks => row.split_whitespace().take(MOST_FIELDS).collect(),
-            Separator::Semicolon => apart(row, ';'),
-            Separator::Comma => apart(row, ','),
+            ' ' => row.split_whitespace().take(MOST_FIELDS).collect(),
+            mark => row.trim_end_matches(mark).split(mark).take(MOST_FIELDS).map(str::trim).collect(),
         }
     }
 
@@ -55,25 +49,12 @@ impl Separators {
         let values: Option<Vec<f64>> = self.fields(row).into_iter().map(|field| self.number(field)).collect();
         values.filter(|values| !values.is_empty())
     }
-
-    fn character(self) -> char {
-        match self.column {
-            Separator::Semicolon => ';',
-            Separator::Comma => ',',
-            Separator::Blanks => ' ',
-        }
-    }
 }
 
 /// Columns and words beyond these are not looked at.
 const MOST_FIELDS: usize = 100;
 /// No name of a column is as long, in bytes.
 const LONGEST_WORD: usize = 100;
-
-/// A separator at the end of a row sets nothing apart.
-fn apart(row: &str, separator: char) -> Vec<&str> {
-    row.trim_end_matches(separator).split(separator).take(MOST_FIELDS).map(str::trim).collect()
-}
 
 /// The lines before the numbers, and how the numbers are set apart.
 struct Head<'t> {
@@ -101,7 +82,7 @@ impl<'t> Head<'t> {
         if let [unit] = units[..] {
             return Some(unit);
         }
-        let between = self.separators.character();
+        let between = self.separators.column;
         let said =
             if units.is_empty() { "nothing says the unit of the accelerations" } else { "there are several units" };
         let expected = format!(
@@ -115,6 +96,9 @@ impl<'t> Head<'t> {
     /// Columns that are no time in s and no acceleration.
     fn check_names(&self, reading: &mut Reading) {
         let Some((number, line)) = self.lines.iter().rfind(|(_, line)| !is_comment(line)) else { return };
+        let mut refuse = |expected: &str| {
+            reading.refuse(|| on_line(*number, format!("{}: expected {expected}", excerpt(line))));
+        };
         let lower = line.to_lowercase();
         let words: Vec<&str> = words(&lower).collect();
         let place = |names: &[&str]| words.iter().position(|word| names.iter().any(|name| word.starts_with(name)));
@@ -122,17 +106,17 @@ impl<'t> Head<'t> {
         let is_other =
             |word: &&str| other.iter().any(|name| word == name || (name.len() > 4 && word.starts_with(name)));
         if words.iter().any(is_other) {
-            reading.refuse(|| on_line(*number, format!("{}: expected an acceleration", excerpt(line))));
+            refuse("an acceleration");
         }
         if let (Some(time), Some(acceleration)) = (place(&["time"]), place(&["acc"]))
             && acceleration < time
         {
-            reading.refuse(|| on_line(*number, format!("{}: expected the time first", excerpt(line))));
+            refuse("the time first");
         }
         let unit_of_time =
             |word: &&str| ["ms", "msec", "min"].contains(&word.rsplit(['_', '/']).next().unwrap_or(word));
         if words.iter().any(unit_of_time) {
-            reading.refuse(|| on_line(*number, format!("{}: expected times in s", excerpt(line))));
+            refuse("times in s");
         }
     }
 }
@@ -188,8 +172,7 @@ pub(super) fn parse(text: &str) -> Option<Result<Accelerogram, RecordError>> {
         return None;
     }
     let about = head.lines.first().map_or_else(String::new, |(_, line)| excerpt(line));
-    let accelerogram = |record| Accelerogram { format: Format::Columns, about, channels: Vec::new(), record };
-    Some(reading.complete().map(accelerogram))
+    Some(reading.accelerogram(Format::Columns, about))
 }
 
 /// How many columns of numbers a text has that are not two, and in which line they begin.

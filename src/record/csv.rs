@@ -27,12 +27,9 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
             None => reading.skip(|| on_line(line, problem(row))),
         }
     }
-    let about = text.trim_start().strip_prefix('#').map_or_else(String::new, |rest| excerpt(first_line(rest)));
-    Ok(Accelerogram { format: Format::Csv, about, channels: Vec::new(), record: reading.complete()? })
-}
-
-fn first_line(text: &str) -> &str {
-    text.split('\n').next().unwrap_or_default()
+    let comment = text.trim_start().strip_prefix('#').and_then(|rest| rest.split('\n').next());
+    let about = comment.map_or_else(String::new, excerpt);
+    reading.accelerogram(Format::Csv, about)
 }
 
 /// The rows of a text, each with its line, counted from 1: all but blank ones and comments. `\r` alone ends a row too, but

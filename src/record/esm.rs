@@ -43,7 +43,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
         reading.add_all(number, numbers_apart(line), |k, value| (k * step, unit.in_si(value)), "a number");
     }
     reading.check_count(line, SAMPLES, samples);
-    Ok(Accelerogram { format: Format::Esm, about: header.about(), channels: Vec::new(), record: reading.complete()? })
+    reading.accelerogram(Format::Esm, header.about())
 }
 
 struct Header<'t> {
@@ -77,15 +77,8 @@ impl<'t> Header<'t> {
         read: impl Fn(&str) -> Option<T>,
         reading: &mut Reading,
     ) -> Option<(usize, T)> {
-        let Some((number, text)) = self.find(key) else {
-            reading.refuse(|| format!("ESM, ITACA: no line {key}: expected it in the header, with {expected}"));
-            return None;
-        };
-        let value = read(text);
-        if value.is_none() {
-            reading.refuse(|| on_line(number, format!("{key}: {}: expected {expected}", excerpt(text))));
-        }
-        value.map(|value| (number, value))
+        let missing = || format!("ESM, ITACA: no line {key}: expected it in the header, with {expected}");
+        reading.value(self.find(key), (&format!("{key}:"), missing), expected, read)
     }
 
     fn unit(&self, reading: &mut Reading) -> Option<Unit> {

@@ -37,8 +37,7 @@ impl RecordFile {
             return Some(RecordFile { name: name.to_owned(), channel: None, bytes });
         }
         let (shorter, channel) = without_channel(name);
-        channel?;
-        Some(RecordFile { name: shorter.to_owned(), channel, bytes: bytes_of(shorter)? })
+        Some(RecordFile::named(name, channel.and_then(|_| bytes_of(shorter))?))
     }
 
     /// A file that has been read already; its name may end with a channel.

@@ -3,11 +3,12 @@
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
 use super::numbers::Columns;
-use super::reading::{Reading, excerpt, numbered, on_line};
+use super::reading::{Reading, excerpt, numbered};
 
 /// How the first line of every file begins.
 const FIRST_KEY: &str = "Origin Time";
 const LAST_KEY: &str = "Memo";
+const SCALE: &str = "Scale Factor";
 /// Header lines of a sound file; a memo may go on for a few more.
 const HEADER_LINES: usize = 17;
 const MOST_HEADER_LINES: usize = 60;
@@ -30,7 +31,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     }
     let samples = (header.duration * header.frequency).round();
     reading.check_count(header.duration_line, "Duration Time times Sampling Freq", samples as usize);
-    Ok(Accelerogram { format: Format::Knet, about: header.about, channels: Vec::new(), record: reading.complete()? })
+    reading.accelerogram(Format::Knet, header.about)
 }
 
 /// Whether most of a line is counts, in columns or apart.
@@ -79,48 +80,40 @@ impl Header {
         let about = |key: &str| value(key).map_or_else(String::new, |(_, text)| excerpt(text));
         let frequency = positive(value("Sampling Freq"), "Sampling Freq(Hz)", reading);
         let duration = positive(value("Duration Time"), "Duration Time(s)", reading);
-        let scale = Scale::read(&head[..last], reading);
+        let scale = head[..last].iter().find_map(|(number, line)| Some((*number, line.strip_prefix(SCALE)?.trim())));
+        let scale = value_of(scale, SCALE, "gal and counts, such as 3920(gal)/6182761", Scale::of, reading);
         Some(Header {
             frequency: frequency?.1,
             duration: duration?.1,
             duration_line: duration?.0,
-            scale: scale?,
+            scale: scale?.1,
             about: format!("{}, {}, {}", about("Station Code"), about("Dir."), about(FIRST_KEY)),
             lines: last + 1 + memo,
         })
     }
 }
 
+/// A value of the header, with its line; what is wrong with it is noted.
+fn value_of<T>(
+    found: Option<(usize, &str)>,
+    key: &str,
+    expected: &str,
+    read: impl Fn(&str) -> Option<T>,
+    reading: &mut Reading,
+) -> Option<(usize, T)> {
+    reading.value(found, (key, || format!("K-NET: no line {key}: expected it in the header")), expected, read)
+}
+
 /// The number > 0 of a header line, and its line.
 fn positive(found: Option<(usize, &str)>, key: &str, reading: &mut Reading) -> Option<(usize, f64)> {
-    let Some((number, text)) = found else {
-        reading.refuse(|| format!("K-NET: no line {key}: expected it in the header"));
-        return None;
+    let read = |text: &str| {
+        let value = text.trim_end_matches(['H', 'h', 'z', 's']).trim().parse::<f64>();
+        value.ok().filter(|value| *value > 0.0 && *value < 1e9)
     };
-    let value = text.trim_end_matches(['H', 'h', 'z', 's']).trim().parse::<f64>();
-    let value = value.ok().filter(|value| *value > 0.0 && *value < 1e9);
-    if value.is_none() {
-        reading.refuse(|| on_line(number, format!("{key} {}: expected a number > 0", excerpt(text))));
-    }
-    Some((number, value?))
+    value_of(found, key, "a number > 0", read, reading)
 }
 
 impl Scale {
-    fn read(header: &[(usize, &str)], reading: &mut Reading) -> Option<Scale> {
-        const KEY: &str = "Scale Factor";
-        let line = header.iter().find_map(|(number, line)| Some((*number, line.strip_prefix(KEY)?.trim())));
-        let Some((number, text)) = line else {
-            reading.refuse(|| format!("K-NET: no line {KEY}: expected it in the header"));
-            return None;
-        };
-        let scale = Scale::of(text);
-        if scale.is_none() {
-            let expected = "expected gal and counts, such as 3920(gal)/6182761";
-            reading.refuse(|| on_line(number, format!("{KEY} {}: {expected}", excerpt(text))));
-        }
-        scale
-    }
-
     fn of(text: &str) -> Option<Scale> {
         let (gal, counts) = text.split_once('/')?;
         let (gal, unit) = gal.split_once('(')?;

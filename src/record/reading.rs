@@ -1,6 +1,7 @@
 //! A record while its file is being read, and how problems in it are told.
 
-use super::accelerogram::{Record, RecordError};
+use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::format::Format;
 use crate::figures::plain;
 use std::borrow::Cow;
 
@@ -79,6 +80,26 @@ impl Reading {
         }
     }
 
+    /// What `read` makes of a value that a header names, with its line; where there is none, or none that fits, that is
+    /// refused. `key` is as messages write it, and `expected` what it has to be.
+    pub(super) fn value<T>(
+        &mut self,
+        found: Option<(usize, &str)>,
+        (key, missing): (&str, impl FnOnce() -> String),
+        expected: &str,
+        read: impl FnOnce(&str) -> Option<T>,
+    ) -> Option<(usize, T)> {
+        let Some((number, text)) = found else {
+            self.refuse(missing);
+            return None;
+        };
+        let value = read(text);
+        if value.is_none() {
+            self.refuse(|| on_line(number, format!("{key} {}: expected {expected}", excerpt(text))));
+        }
+        value.map(|value| (number, value))
+    }
+
     /// Whether nothing has been wrong so far.
     pub(super) fn is_sound(&self) -> bool {
         self.problems.is_empty()
@@ -93,12 +114,17 @@ impl Reading {
         }
     }
 
+    /// The record of a file with one channel, with what the file says about it.
+    pub(super) fn accelerogram(self, format: Format, about: String) -> Result<Accelerogram, RecordError> {
+        Ok(Accelerogram { format, about, channels: Vec::new(), record: self.complete()? })
+    }
+
     /// The record once its file has been read to the end.
     pub(super) fn complete(mut self) -> Result<Record, RecordError> {
-        match self.samples {
-            0 => self.refuse(|| "0 samples: expected at least 2".to_owned()),
-            1 => self.refuse(|| "1 sample: expected at least 2".to_owned()),
-            _ => {}
+        if self.samples < 2 {
+            let plural = if self.samples == 1 { "" } else { "s" };
+            let found = format!("{} sample{plural}: expected at least 2", self.samples);
+            self.refuse(|| found);
         }
         if self.problems.is_empty() { Ok(self.record) } else { Err(self.stop()) }
     }

@@ -203,12 +203,8 @@ impl<'t> Channel<'t> {
 
     fn unit(&self, reading: &mut Reading) -> Option<Unit> {
         let text = self.block.unit;
-        let unit = Unit::read(text);
-        if unit.is_none() {
-            let expected = "expected a unit of acceleration, cm/sec2 or g";
-            reading.refuse(|| on_line(self.line, format!("in {}: {expected}", excerpt(text))));
-        }
-        unit
+        let expected = "a unit of acceleration, cm/sec2 or g";
+        reading.value(Some((self.line, text)), ("in", String::new), expected, Unit::read).map(|(_, unit)| unit)
     }
 
     /// Reads the block up to what is no line of samples.

@@ -211,7 +211,7 @@ impl Checker {
     fn law(&mut self, path: &str, law: &ImpactLaw) {
         for &key in law.kind.info().keys {
             let key = law_key::number(key);
-            self.number(format_args!("{path}.{}", key.name), (key.get)(law), key.rule);
+            self.number(format_args!("{path}.{}", key.name), key.get(law), key.rule);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::checker::Checker;
 use super::data::{Building, Stiffness};
 use super::foundation::{Foundation, Soil};
-use super::{matrix, rule};
+use super::rule;
 
 impl Checker {
     /// The rules of foundations.
@@ -44,7 +44,7 @@ impl Checker {
         let least = building.overturning_stiffness();
         // A NaN has been refused as what it is.
         if stand && rocking.stiffness <= least {
-            let [found, least] = [rocking.stiffness, least].map(|k| matrix::six_digits(self.units.written(k)));
+            let [found, least] = [rocking.stiffness, least].map(|k| self.six_digits(k));
             let unit = self.units.unit("N m/rad");
             let expected = format!(
                 "a building that stands: the soil's stiffness against rocking, {found} {unit}, is not above {least} {unit}, \

@@ -1,6 +1,6 @@
 //! The problems of a scene as the rules find them.
 
-use super::problem::{Problem, count, excerpt, numbers};
+use super::problem::{Problem, count, excerpt, number, numbers};
 use super::rule::Rule;
 use super::units::Units;
 use std::fmt::Display;
@@ -42,9 +42,19 @@ impl Checker {
         }
     }
 
+    /// An SI number with a mass or a force in its unit, for a person.
+    pub(super) fn six_digits(&self, value: f64) -> String {
+        six_digits(self.units.written(value))
+    }
+
     /// A list of numbers under a rule as the file may have it.
     pub(super) fn written(&self, values: &[f64], rule: Rule) -> String {
         let units = rule.units(self.units);
         excerpt(&numbers(&values.iter().map(|&value| units.written(value)).collect::<Vec<_>>()))
     }
+}
+
+/// For a person.
+pub(super) fn six_digits(value: f64) -> String {
+    number(format!("{value:.5e}").parse().unwrap_or(value))
 }

@@ -94,11 +94,8 @@ impl Face {
 
 impl ContactPair {
     /// Where columns are hit, if they are.
-    pub const fn position(&self) -> Option<f64> {
-        match (self.left, self.right) {
-            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
-            _ => None,
-        }
+    pub fn position(&self) -> Option<f64> {
+        self.clone().position_mut().copied()
     }
 
     /// The same, to be changed.

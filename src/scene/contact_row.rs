@@ -9,30 +9,24 @@ use super::side::Side;
 impl Face {
     /// What moves it. The weights of floors and foundation are positive and add up to 1 together with that of the ground;
     /// columns that are bent to N(s) of their drift have turned by s as they lean with their foundation.
-    fn shares(self, scene: &Scene) -> impl Iterator<Item = Share> {
-        let places = self.side().map(|side| Places::of(scene.building(side)));
-        let shares = match self {
-            Face::Floor(_, floor) => [Some((floor, 1.0)), None],
+    fn shares(self, scene: &Scene) -> Vec<Share> {
+        let Some(side) = self.side() else { return Vec::new() };
+        let places = Places::of(scene.building(side));
+        let place = |floor: usize| floor.checked_sub(1).map_or(Place::Foundation, Place::Floor);
+        let shares: Vec<(Place, f64)> = match self {
+            Face::Wall => Vec::new(),
+            Face::Floor(_, floor) => vec![(place(floor), 1.0)],
             Face::Columns { storey, position, shape, .. } => {
                 let upper = shape.share_of_upper_floor(position);
-                [Some((storey.saturating_sub(1), 1.0 - upper)), Some((storey, upper))]
-            }
-            Face::Wall => [None, None],
-        };
-        let tilt = match (self, &places) {
-            (Face::Columns { storey, position, shape, .. }, Some(places)) => {
                 let height = storey.checked_sub(1).and_then(|storey| places.tilt(storey));
-                height.map(|height| (Place::Rotation, (position - shape.share_of_upper_floor(position)) * height))
+                let tilt = height.map(|height| (Place::Rotation, (position - upper) * height));
+                let ends = [(place(storey.saturating_sub(1)), 1.0 - upper), (place(storey), upper)];
+                ends.into_iter().chain(tilt).collect()
             }
-            _ => None,
         };
-        let place = |floor: usize| floor.checked_sub(1).map_or(Place::Foundation, Place::Floor);
-        let shares = shares.into_iter().flatten().map(move |(floor, weight)| (place(floor), weight));
         // What does not move, such as the ground below columns, has no share.
-        shares.chain(tilt).filter_map(move |(place, weight)| {
-            places.as_ref()?.number(place)?;
-            Some(Share { side: self.side()?, place, weight })
-        })
+        let moves = |(place, _): &(Place, f64)| places.number(*place).is_some();
+        shares.into_iter().filter(moves).map(|(place, weight)| Share { side, place, weight }).collect()
     }
 }
 
@@ -40,8 +34,8 @@ impl ContactPair {
     /// The row of the contact in its scene: its penetration is the sum of the weights times the displacements, less the gap.
     /// A contact force pushes each floor with its weight of it, against the weight's sign.
     pub fn row(&self, scene: &Scene) -> impl Iterator<Item = Share> {
-        let right = self.right.shares(scene).map(|share| Share { weight: -share.weight, ..share });
-        self.left.shares(scene).chain(right)
+        let right = self.right.shares(scene).into_iter().map(|share| Share { weight: -share.weight, ..share });
+        self.left.shares(scene).into_iter().chain(right)
     }
 
     /// Whether the ground takes part: as a wall, or as the lower end of the columns of a first storey.

@@ -186,18 +186,8 @@ pub struct Solver {
 
 impl Building {
     /// No building.
-    pub const fn absent() -> Building {
-        Building {
-            mass: Vec::new(),
-            stiffness: Stiffness::Shear(Vec::new()),
-            damping: Damping::Ratio(0.0),
-            initial_displacement: Vec::new(),
-            initial_velocity: Vec::new(),
-            heights: None,
-            yielding: None,
-            p_delta: None,
-            foundation: None,
-        }
+    pub fn absent() -> Building {
+        Building::new(Vec::new(), Stiffness::Shear(Vec::new()), Damping::Ratio(0.0))
     }
 
     /// Yield force, N, and post-yield ratio of a storey, counted from 0, that can yield.

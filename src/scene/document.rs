@@ -187,6 +187,14 @@ impl<'t> Item<'t> {
         self.document.report(&self.path, self.document.source(self.value), expected);
     }
 
+    /// What has been made of the value; where that is nothing, it is refused.
+    pub(super) fn found<T>(&self, value: Option<T>, expected: impl Into<String>) -> Option<T> {
+        if value.is_none() {
+            self.refuse(expected);
+        }
+        value
+    }
+
     /// A number in a unit without mass and force. Neutral: NaN.
     pub(super) fn number(&self) -> f64 {
         self.quantity(Units::Si)
@@ -210,10 +218,7 @@ impl<'t> Item<'t> {
             }
             _ => None,
         };
-        value.unwrap_or_else(|| {
-            self.refuse("a number");
-            f64::NAN
-        })
+        self.found(value, "a number").unwrap_or(f64::NAN)
     }
 
     /// Neutral: 0.
@@ -225,44 +230,32 @@ impl<'t> Item<'t> {
     pub(super) fn whole(&self) -> Option<usize> {
         let integer = self.value.get_ref().as_integer();
         let value = integer.and_then(|integer| usize::from_str_radix(integer.as_str(), integer.radix()).ok());
-        if value.is_none() {
-            self.refuse("a whole number from 1 on");
-        }
-        value
+        self.found(value, "a whole number from 1 on")
     }
 
     /// Neutral: false.
     pub(super) fn boolean(&self) -> bool {
-        self.value.get_ref().as_bool().unwrap_or_else(|| {
-            self.refuse("true or false");
-            false
-        })
+        self.found(self.value.get_ref().as_bool(), "true or false").unwrap_or_default()
     }
 
     pub(super) fn text(&self) -> Option<&'t str> {
-        let text = self.value.get_ref().as_str();
-        if text.is_none() {
-            self.refuse("text in quotation marks");
-        }
-        text
+        self.found(self.value.get_ref().as_str(), "text in quotation marks")
     }
 
     /// What one of some names stands for; `what` says what kind of name is expected.
     pub(super) fn choice<T>(&self, what: &str, names: &[&str], meaning: impl Fn(&str) -> Option<T>) -> Option<T> {
+        self.named(meaning, |name| one_of(what, names, name))
+    }
+
+    /// What a name stands for; `expected` says what instead of a name that there is not.
+    pub(super) fn named<T>(&self, meaning: impl Fn(&str) -> Option<T>, expected: impl Fn(&str) -> String) -> Option<T> {
         let name = self.text()?;
-        let found = meaning(name);
-        if found.is_none() {
-            self.refuse(one_of(what, names, name));
-        }
-        found
+        meaning(name).or_else(|| self.found(None, expected(name)))
     }
 
     /// `None` where it is no list; `what` says what kind of list is expected.
     pub(super) fn list(&self, what: &str) -> Option<Vec<Item<'t>>> {
-        let Some(entries) = self.value.get_ref().as_array() else {
-            self.refuse(what);
-            return None;
-        };
+        let entries = self.found(self.value.get_ref().as_array(), what)?;
         let item = |(i, value)| Item { document: self.document, path: format!("{}[{}]", self.path, i + 1), value };
         Some(entries.iter().enumerate().map(item).collect())
     }
@@ -310,23 +303,24 @@ impl<'t> Item<'t> {
         self.value.get_ref().as_array().is_some()
     }
 
-    /// Whether it is a table.
-    pub(super) fn is_table(&self) -> bool {
-        self.value.get_ref().as_table().is_some()
-    }
-
     /// As [`Item::quantity`]. Neutral: empty.
     pub(super) fn rows(&self, units: Units) -> Vec<Vec<f64>> {
         let rows = self.list("a list of rows, each a list of numbers");
         rows.iter().flatten().map(|row| row.quantities(units)).collect()
     }
 
+    /// The tables of a key that there may be many of, `[[key]]`. Neutral: none.
+    pub(super) fn tables(&self, key: &str) -> Vec<Section<'t>> {
+        if self.value.get_ref().is_table() {
+            self.refuse(format!("[[{key}]], with two brackets on either side, above every {key}"));
+            return Vec::new();
+        }
+        self.list(&format!("[[{key}]] tables")).iter().flatten().map(Item::section).collect()
+    }
+
     /// Neutral: absent.
     pub(super) fn section(&self) -> Section<'t> {
-        let table = self.value.get_ref().as_table();
-        if table.is_none() {
-            self.refuse("a table");
-        }
+        let table = self.found(self.value.get_ref().as_table(), "a table");
         let source = self.document.source(self.value);
         Section { document: self.document, path: self.path.clone(), source, table, known: Vec::new() }
     }

@@ -13,41 +13,38 @@ pub struct LawNumber {
     pub rule: Rule,
     /// Value where the scene gives none; `None`: the key is required.
     pub default: Option<f64>,
+    /// The number of a law, to be read or changed.
+    of: fn(&mut ImpactLaw) -> &mut f64,
+}
+
+impl LawNumber {
+    const fn new(
+        name: &'static str,
+        rule: Rule,
+        default: Option<f64>,
+        of: fn(&mut ImpactLaw) -> &mut f64,
+    ) -> LawNumber {
+        LawNumber { name, rule, default, of }
+    }
+
     /// Reads the number of a law.
-    pub get: fn(&ImpactLaw) -> f64,
+    pub fn get(&self, law: &ImpactLaw) -> f64 {
+        *(self.of)(&mut law.clone())
+    }
+
     /// Changes the number of a law.
-    pub set: fn(&mut ImpactLaw, f64),
+    pub fn set(&self, law: &mut ImpactLaw, value: f64) {
+        *(self.of)(law) = value;
+    }
 }
 
 /// What the scene knows of a key.
 pub fn number(key: LawKey) -> LawNumber {
     match key {
-        LawKey::Stiffness => LawNumber {
-            name: "stiffness",
-            rule: rule::CONTACT_STIFFNESS,
-            default: None,
-            get: |law| law.stiffness,
-            set: |law, value| law.stiffness = value,
-        },
-        LawKey::Exponent => LawNumber {
-            name: "exponent",
-            rule: rule::EXPONENT,
-            default: Some(1.5),
-            get: |law| law.exponent,
-            set: |law, value| law.exponent = value,
-        },
-        LawKey::Restitution => restitution(rule::RESTITUTION),
-        LawKey::ImpulseRestitution => restitution(rule::IMPULSE_RESTITUTION),
-    }
-}
-
-fn restitution(rule: Rule) -> LawNumber {
-    LawNumber {
-        name: "restitution",
-        rule,
-        default: None,
-        get: |law| law.restitution,
-        set: |law, value| law.restitution = value,
+        LawKey::Stiffness => LawNumber::new("stiffness", rule::CONTACT_STIFFNESS, None, |law| &mut law.stiffness),
+        LawKey::Exponent => LawNumber::new("exponent", rule::EXPONENT, Some(1.5), |law| &mut law.exponent),
+        LawKey::Restitution => LawNumber::new("restitution", rule::RESTITUTION, None, |law| &mut law.restitution),
+        LawKey::ImpulseRestitution => LawNumber { rule: rule::IMPULSE_RESTITUTION, ..number(LawKey::Restitution) },
     }
 }
 

@@ -30,11 +30,10 @@ impl Heights {
 
     /// Levels of the floors, m, from floor 1 on.
     fn levels(&self) -> impl Iterator<Item = f64> + '_ {
-        let above = |level: &mut f64, height: &f64| {
+        self.storeys.iter().scan(self.base_level, |level, height| {
             *level += height;
             Some(*level)
-        };
-        self.storeys.iter().scan(self.base_level, above)
+        })
     }
 
     /// Where in a storey, counted from 1, a level is: the share of the storey's height from its lower end, below 0 and

@@ -40,9 +40,4 @@ impl Link {
     pub fn joins_buildings(&self) -> bool {
         self.left.is_some() && self.right.is_some()
     }
-
-    /// Whether there is no device: neither a spring nor a dashpot.
-    pub(super) fn is_nothing(&self) -> bool {
-        self.slip.is_none() && self.stiffness == 0.0 && self.dashpot == 0.0
-    }
 }

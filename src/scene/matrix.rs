@@ -52,7 +52,7 @@ impl Checker {
         let [smallest, largest] = extreme_eigenvalues(rows);
         if !(definiteness.holds)(smallest, largest) {
             let Definiteness { name, unit, .. } = definiteness;
-            let [smallest, largest] = [smallest, largest].map(|value| six_digits(self.units.written(value)));
+            let [smallest, largest] = [smallest, largest].map(|value| self.six_digits(value));
             let unit = self.units.unit(unit);
             let expected = format!("a {name} matrix, but its eigenvalues go from {smallest} to {largest} {unit}");
             self.refuse(path, self.text(rows), expected);
@@ -124,9 +124,4 @@ pub(super) fn extreme_eigenvalues(rows: &[Vec<f64>]) -> [f64; 2] {
         Some(eigen) => [eigen.eigenvalues.min() * scale, eigen.eigenvalues.max() * scale],
         None => [f64::NAN, f64::NAN],
     }
-}
-
-/// For a person.
-pub(super) fn six_digits(value: f64) -> String {
-    number(format!("{value:.5e}").parse().unwrap_or(value))
 }

@@ -62,23 +62,23 @@ impl ContactPair {
 impl Link {
     /// What it is between, from left to right, for a table: "left 2 | right 2", "ground | right 1".
     pub fn brief(&self) -> String {
-        let name = |side: Side, end: Option<Place>| match end {
-            None => "ground".to_owned(),
-            Some(Place::Floor(floor)) => Face::Floor(side, floor + 1).brief(),
-            Some(Place::Foundation | Place::Rotation) => format!("{side} foundation"),
-        };
-        format!("{} | {}", name(Side::Left, self.left), name(Side::Right, self.right))
+        let [left, right] = self.names("", Face::brief);
+        format!("{left} | {right}")
     }
 
     /// What it is between, for a person: "between left floor 2 and right floor 2", "between left floor 2 and the ground".
     pub fn meeting(&self, scene: &Scene) -> String {
-        let name = |side: Side, end: Option<Place>| match end {
-            None => "the ground".to_owned(),
-            Some(Place::Floor(floor)) => Face::Floor(side, floor + 1).name(scene),
-            Some(Place::Foundation | Place::Rotation) => format!("the {side} foundation"),
-        };
-        let (left, right) = (name(Side::Left, self.left), name(Side::Right, self.right));
+        let [left, right] = self.names("the ", |floor| floor.name(scene));
         format!("between {left} and {right}").trim_end_matches(',').to_owned()
+    }
+
+    /// The names of its ends; `article` stands before what is no floor.
+    fn names(&self, article: &str, of_floor: impl Fn(&Face) -> String) -> [String; 2] {
+        [(Side::Left, self.left), (Side::Right, self.right)].map(|(side, end)| match end {
+            None => format!("{article}ground"),
+            Some(Place::Floor(floor)) => of_floor(&Face::Floor(side, floor + 1)),
+            Some(Place::Foundation | Place::Rotation) => format!("{article}{side} foundation"),
+        })
     }
 }
 

@@ -11,7 +11,7 @@
 //! with the same yield drift, the same stiffness lost by yielding, (1 - r') k' = (1 - r) k, and the same energy dissipated by
 //! it. The engine moves net storeys; what a user reads of a storey is that of its columns.
 
-use super::checker::Checker;
+use super::checker::{Checker, six_digits};
 use super::data::{Building, PDelta, Stiffness};
 use super::matrix;
 use super::problem::number;
@@ -198,9 +198,9 @@ impl Checker {
             if collapse <= least {
                 let expected = format!(
                     "more than {}: storey {} would have collapsed at a drift of {} m, before it yields or at the start",
-                    matrix::six_digits(least / heights.storeys[storey]),
+                    six_digits(least / heights.storeys[storey]),
                     storey + 1,
-                    matrix::six_digits(collapse)
+                    six_digits(collapse)
                 );
                 self.refuse(format_args!("{path}.collapse_drift_ratio"), number(*collapse_drift_ratio), expected);
             }
@@ -209,14 +209,13 @@ impl Checker {
 
     /// A building that gravity does not push over while it is elastic.
     fn stands(&mut self, path: &str, building: &Building) {
-        let shown = |checker: &Checker, g: f64| matrix::six_digits(checker.units.written(g));
         let unit = self.units.unit("N/m");
         match &*building.net_stiffness() {
             Stiffness::Shear(net) => {
                 let gravity = building.gravity_stiffness();
                 for (storey, g) in gravity.iter().enumerate().filter(|(storey, _)| net[*storey] <= 0.0) {
                     let stiffness = building.stiffness.of_storey(storey).unwrap_or_default();
-                    let (g, k) = (shown(self, *g), shown(self, stiffness));
+                    let [g, k] = [*g, stiffness].map(|stiffness| self.six_digits(stiffness));
                     let expected = format!(
                         "storeys that stand: gravity on storey {} (g = {g} {unit}) is not below its stiffness, {k} {unit}",
                         storey + 1
@@ -227,8 +226,7 @@ impl Checker {
             Stiffness::Matrix(rows) => {
                 let [smallest, largest] = matrix::extreme_eigenvalues(rows);
                 if !matrix::is_positive(smallest, largest) {
-                    let [smallest, largest] =
-                        [smallest, largest].map(|value| matrix::six_digits(self.units.written(value)));
+                    let [smallest, largest] = [smallest, largest].map(|value| self.six_digits(value));
                     let expected = format!(
                         "a building that stands: less the stiffness that gravity takes, the eigenvalues of stiffness_matrix \
                          go from {smallest} to {largest} {unit}"

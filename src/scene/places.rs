@@ -54,10 +54,7 @@ impl Places {
 
     /// The lean of a storey, counted from 0, as weights of displacements.
     pub fn lean(&self, storey: usize) -> impl Iterator<Item = (Place, f64)> {
-        let below = match storey.checked_sub(1) {
-            Some(floor) => Some(Place::Floor(floor)),
-            None => self.sways.then_some(Place::Foundation),
-        };
+        let below = storey.checked_sub(1).map(Place::Floor).or(self.sways.then_some(Place::Foundation));
         [Some((Place::Floor(storey), 1.0)), below.map(|below| (below, -1.0))].into_iter().flatten()
     }
 

@@ -41,22 +41,11 @@ impl fmt::Display for Problem {
 
 /// Everything that is wrong with a scene, at once; displayed with one problem a line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
 #[non_exhaustive]
 pub struct SceneError {
     /// In the order of the file.
     pub problems: Vec<Problem>,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, problem) in self.problems.iter().enumerate() {
-            if i > 0 {
-                writeln!(f)?;
-            }
-            write!(f, "{problem}")?;
-        }
-        Ok(())
-    }
 }
 
 impl From<Problem> for SceneError {

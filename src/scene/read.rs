@@ -58,7 +58,8 @@ impl<'t> Draft<'t> {
         }
         let mut problems = self.problems;
         let spans = document::spans(&document::parse(self.text)?);
-        problems.sort_by_cached_key(|problem| position(&problem.path, &spans));
+        // A missing key has the position of the table that lacks it.
+        problems.sort_by_cached_key(|problem| document::place(&problem.path, &spans).unwrap_or_default());
         Err(SceneError { problems })
     }
 }
@@ -71,11 +72,6 @@ fn tell_of_facing(problems: &mut Vec<Problem>) {
     }
     let mut told = HashSet::new();
     problems.retain(|problem| !problem.path.starts_with("facing") || told.insert(problem.path.clone()));
-}
-
-/// Position of a path in the text; a missing key has the position of the table that lacks it.
-fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
-    document::place(path, spans).unwrap_or_default()
 }
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
@@ -93,7 +89,7 @@ fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, 
 fn scene(mut root: Section<'_>) -> Scene {
     let name = root.require("name", "a C identifier").and_then(|item| item.text()).unwrap_or_default();
     let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
-    let units = root.get("units").and_then(|item| self::units(&item)).unwrap_or_default();
+    let units = root.get("units").and_then(|item| item.named(Units::from_name, units::expected)).unwrap_or_default();
     let stop_time = root.get("stop_time").map(|item| item.number());
     let left = building(root.require_section("left", "the building on the left"), units);
     let right = root.get("right").map(|item| building(item.section(), units));
@@ -102,12 +98,15 @@ fn scene(mut root: Section<'_>) -> Scene {
     let (contacts, facing) =
         read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
     let links = read_links::all(&mut root, units);
-    if right.is_none() && (contacts.iter().any(|pair| pair.is_with(Side::Right)) || facing.is_some()) {
-        root.missing("right", "the building on the right, which contacts are with");
-    } else if right.is_none() && links.iter().any(|link| link.right.is_some()) {
-        root.missing("right", "the building on the right, which links are with");
+    let is_met = facing.is_some() || contacts.iter().any(|pair| pair.is_with(Side::Right));
+    match right.is_none() {
+        true if is_met => root.missing("right", "the building on the right, which contacts are with"),
+        true if links.iter().any(|link| link.right.is_some()) => {
+            root.missing("right", "the building on the right, which links are with");
+        }
+        _ => {}
     }
-    let right = right.unwrap_or(Building::absent());
+    let right = right.unwrap_or_else(Building::absent);
     let (energy, peaks) = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
@@ -130,15 +129,6 @@ fn scene(mut root: Section<'_>) -> Scene {
     }
 }
 
-fn units(item: &Item<'_>) -> Option<Units> {
-    let name = item.text()?;
-    let units = Units::from_name(name);
-    if units.is_none() {
-        item.refuse(units::expected(name));
-    }
-    units
-}
-
 fn building(mut section: Section<'_>, units: Units) -> Building {
     let what = format!("a list of masses in {}, one per floor", units.unit("kg"));
     let mass = section.require("mass", &what).map(|item| {
@@ -149,7 +139,6 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
         mass
     });
     let mass = mass.unwrap_or_default();
-    let at_rest = || vec![0.0; mass.len()];
     let stiffness = stiffness(&mut section, units);
     let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, dashpots, matrix");
     let damping = match damping {
@@ -160,24 +149,15 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
         Some(item) => self::damping(item.section(), units),
         None => Damping::Ratio(0.0),
     };
-    let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
-    let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
-    let heights = heights(&mut section);
-    let yielding = yielding(&mut section, &stiffness, units);
-    let p_delta = p_delta(&mut section, yielding.is_some(), mass.len(), units);
-    let foundation = read_foundation::of_building(&mut section, units);
+    let mut building = Building::new(mass, stiffness, damping);
+    section.get("initial_displacement").inspect(|item| building.initial_displacement = item.numbers());
+    section.get("initial_velocity").inspect(|item| building.initial_velocity = item.numbers());
+    building.heights = heights(&mut section);
+    building.yielding = yielding(&mut section, &building.stiffness, units);
+    building.p_delta = p_delta(&mut section, building.yielding.is_some(), building.mass.len(), units);
+    building.foundation = read_foundation::of_building(&mut section, units);
     section.close(KEY);
-    Building {
-        stiffness,
-        damping,
-        initial_displacement,
-        initial_velocity,
-        heights,
-        yielding,
-        p_delta,
-        foundation,
-        mass,
-    }
+    building
 }
 
 fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Units) -> Option<PDelta> {
@@ -216,14 +196,9 @@ fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> O
     let ratio = match ratio {
         None => vec![0.0; force.len()],
         Some(item) if item.is_number() => {
-            let ratio = item.number();
-            match rule::POST_YIELD_RATIO.holds(ratio) {
-                true => vec![ratio; force.len()],
-                false => {
-                    item.refuse(rule::POST_YIELD_RATIO.expected(Units::Si));
-                    vec![0.0; force.len()]
-                }
-            }
+            let rule = rule::POST_YIELD_RATIO;
+            let ratio = Some(item.number()).filter(|ratio| rule.holds(*ratio));
+            vec![item.found(ratio, rule.expected(Units::Si)).unwrap_or(0.0); force.len()]
         }
         Some(item) => item.numbers(),
     };
@@ -341,10 +316,9 @@ fn outputs(mut section: Section<'_>) -> (bool, bool) {
 }
 
 fn solver(mut section: Section<'_>) -> Solver {
-    let default = Solver::default();
-    let relative_tolerance = section.get("relative_tolerance").map_or(default.relative_tolerance, |item| item.number());
-    let min_approach_velocity =
-        section.get("min_approach_velocity").map_or(default.min_approach_velocity, |item| item.number());
+    let mut solver = Solver::default();
+    section.get("relative_tolerance").inspect(|item| solver.relative_tolerance = item.number());
+    section.get("min_approach_velocity").inspect(|item| solver.min_approach_velocity = item.number());
     section.close(KEY);
-    Solver { relative_tolerance, min_approach_velocity }
+    solver
 }

@@ -21,14 +21,8 @@ pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Unit
         let tolerance = section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number());
         return (self::facing(root, section, tolerance, buildings, units), Some(tolerance));
     }
-    let tables = tables.and_then(|item| match item.is_table() {
-        false => item.list("[[contact]] tables"),
-        true => {
-            item.refuse("[[contact]], with two brackets on either side, above every contact");
-            None
-        }
-    });
-    (tables.iter().flatten().map(|item| contact(item.section(), buildings, units)).collect(), None)
+    let tables = tables.iter().flat_map(|item| item.tables("contact"));
+    (tables.map(|section| contact(section, buildings, units)).collect(), None)
 }
 
 fn facing(
@@ -41,7 +35,7 @@ fn facing(
     let shape = section.get("column_shape").and_then(|item| column_shape(&item)).unwrap_or_default();
     let gap = gap(&mut section);
     let law = law(section, units);
-    let heights = [Side::Left, Side::Right].map(|side| {
+    let heights = Side::BOTH.map(|side| {
         let building = buildings[side as usize];
         if building.heights.is_none() && !building.is_absent() {
             root.section(side.name()).missing("height", "the heights of the storeys in m, which [facing] needs");
@@ -89,35 +83,25 @@ fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] 
     if let Some(wall) = &keys.wall {
         return at_wall(section, &keys, wall);
     }
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         keys.refuse_what_belongs_to_columns(side);
     }
-    match &keys.storeys {
-        [Some(_), Some(right)] => {
-            right.refuse("a floor on one side: the columns of two storeys do not reach each other");
-            [Face::Wall, Face::Wall]
-        }
-        [Some(storey), None] if keys.floors[0].is_none() => {
-            let floor = floor(section, &keys, Side::Right);
-            [
-                columns(section, &keys, (Side::Left, storey), (Side::Right, floor), buildings),
-                Face::Floor(Side::Right, floor),
-            ]
-        }
-        [None, Some(storey)] if keys.floors[1].is_none() => {
-            let floor = floor(section, &keys, Side::Left);
-            [
-                Face::Floor(Side::Left, floor),
-                columns(section, &keys, (Side::Right, storey), (Side::Left, floor), buildings),
-            ]
-        }
-        storeys => {
-            for (side, storey) in [Side::Left, Side::Right].into_iter().zip(storeys) {
-                storey.as_ref().inspect(|item| item.refuse(format!("either {side}_floor or {side}_storey, not both")));
-            }
-            [Side::Left, Side::Right].map(|side| Face::Floor(side, floor(section, &keys, side)))
-        }
+    if let [Some(_), Some(right)] = &keys.storeys {
+        right.refuse("a floor on one side: the columns of two storeys do not reach each other");
+        return [Face::Wall, Face::Wall];
     }
+    let has_columns = |side: usize| keys.storeys[side].is_some() && keys.floors[side].is_none();
+    let floors = Side::BOTH.map(|side| if has_columns(side as usize) { 0 } else { floor(section, &keys, side) });
+    Side::BOTH.map(|side| match &keys.storeys[side as usize] {
+        Some(storey) if has_columns(side as usize) => {
+            let opposite = side.opposite();
+            columns(section, &keys, (side, storey), (opposite, floors[opposite as usize]), buildings)
+        }
+        storey => {
+            storey.as_ref().inspect(|item| item.refuse(format!("either {side}_floor or {side}_storey, not both")));
+            Face::Floor(side, floors[side as usize])
+        }
+    })
 }
 
 impl Keys<'_> {
@@ -244,7 +228,7 @@ fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
             Some(_) => section.get(key.name),
         };
         let value = item.map(|item| item.quantity(key.rule.units(units))).or(key.default);
-        (key.set)(&mut law, value.unwrap_or(f64::NAN));
+        key.set(&mut law, value.unwrap_or(f64::NAN));
     }
     if kind.info().has_damping_formula {
         law.damping_formula = damping_formula(&mut section);

@@ -12,14 +12,7 @@ const FLOOR: &str = "a floor, counted from 1";
 
 /// All links of a scene.
 pub(super) fn all(root: &mut Section<'_>, units: Units) -> Vec<Link> {
-    let tables = root.get("link").and_then(|item| match item.is_table() {
-        false => item.list("[[link]] tables"),
-        true => {
-            item.refuse("[[link]], with two brackets on either side, above every link");
-            None
-        }
-    });
-    tables.iter().flatten().map(|item| link(item.section(), units)).collect()
+    root.get("link").iter().flat_map(|item| item.tables("link")).map(|section| link(section, units)).collect()
 }
 
 fn link(mut section: Section<'_>, units: Units) -> Link {
@@ -54,7 +47,8 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
         dashpot: quantity(&dashpot).unwrap_or_default(),
         slip: quantity(&force).map(|force| Slip { force, ratio }),
     };
-    if let Some(item) = stiffness.or(dashpot).filter(|_| link.is_nothing()) {
+    let is_nothing = link.slip.is_none() && link.stiffness == 0.0 && link.dashpot == 0.0;
+    if let Some(item) = stiffness.or(dashpot).filter(|_| is_nothing) {
         item.refuse("a stiffness > 0, or a dashpot > 0: nothing would be there");
     }
     link

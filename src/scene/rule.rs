@@ -15,6 +15,16 @@ pub struct Rule {
 }
 
 impl Rule {
+    /// Of a number without mass and force in its unit.
+    const fn of(expected: &'static str, holds: fn(f64) -> bool) -> Rule {
+        Rule { expected, in_kn_t: None, holds }
+    }
+
+    /// Of one with a mass or a force in its unit, in words for either kind of units.
+    const fn of_force(expected: &'static str, in_kn_t: &'static str, holds: fn(f64) -> bool) -> Rule {
+        Rule { expected, in_kn_t: Some(in_kn_t), holds }
+    }
+
     /// For a person, after "expected", about a scene in these units.
     pub const fn expected(&self, units: Units) -> &'static str {
         match (units, self.in_kn_t) {
@@ -68,103 +78,77 @@ pub const MOST_FLOORS: usize = 1000;
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
 
 /// Any finite number: entries of matrices.
-pub const ENTRY: Rule = Rule { expected: "a finite number", in_kn_t: None, holds: |_| true };
+pub const ENTRY: Rule = Rule::of("a finite number", |_| true);
 /// The same where they are stiffnesses or of dashpots.
 pub const FORCE_ENTRY: Rule = Rule { in_kn_t: Some(ENTRY.expected), ..ENTRY };
 /// `stop_time`, s.
-pub const STOP_TIME: Rule =
-    Rule { expected: "a time > 0 s and at most 1e12 s", in_kn_t: None, holds: |t| t > 0.0 && t <= MOST_TIME };
+pub const STOP_TIME: Rule = Rule::of("a time > 0 s and at most 1e12 s", |t| t > 0.0 && t <= MOST_TIME);
 /// `mass`, kg.
-pub const MASS: Rule =
-    Rule { expected: "a finite mass > 0 kg", in_kn_t: Some("a finite mass > 0 t"), holds: |m| m > 0.0 };
+pub const MASS: Rule = Rule::of_force("a finite mass > 0 kg", "a finite mass > 0 t", |m| m > 0.0);
 /// `stiffness` of a storey, N/m.
 pub const STOREY_STIFFNESS: Rule =
-    Rule { expected: "a finite stiffness > 0 N/m", in_kn_t: Some("a finite stiffness > 0 kN/m"), holds: |k| k > 0.0 };
+    Rule::of_force("a finite stiffness > 0 N/m", "a finite stiffness > 0 kN/m", |k| k > 0.0);
 /// `inertia` of a foundation, kg m2.
-pub const MOMENT_OF_INERTIA: Rule = Rule {
-    expected: "a finite moment of inertia > 0 kg m2",
-    in_kn_t: Some("a finite moment of inertia > 0 t m2"),
-    holds: |inertia| inertia > 0.0,
-};
+pub const MOMENT_OF_INERTIA: Rule =
+    Rule::of_force("a finite moment of inertia > 0 kg m2", "a finite moment of inertia > 0 t m2", |inertia| {
+        inertia > 0.0
+    });
 /// `rocking.stiffness` of a foundation, N m per radian.
-pub const ROCKING_STIFFNESS: Rule = Rule {
-    expected: "a finite stiffness > 0 N m/rad",
-    in_kn_t: Some("a finite stiffness > 0 kN m/rad"),
-    holds: |k| k > 0.0,
-};
+pub const ROCKING_STIFFNESS: Rule =
+    Rule::of_force("a finite stiffness > 0 N m/rad", "a finite stiffness > 0 kN m/rad", |k| k > 0.0);
 /// `rocking.dashpot` of a foundation, N m s per radian.
-pub const ROCKING_DASHPOT: Rule = Rule {
-    expected: "a finite dashpot >= 0 N m s/rad",
-    in_kn_t: Some("a finite dashpot >= 0 kN m s/rad"),
-    holds: |c| c >= 0.0,
-};
+pub const ROCKING_DASHPOT: Rule =
+    Rule::of_force("a finite dashpot >= 0 N m s/rad", "a finite dashpot >= 0 kN m s/rad", |c| c >= 0.0);
 /// `yield_force` of a storey, N; infinite ones are allowed as well, by the file and by the FMU's parameters.
-pub const YIELD_FORCE: Rule = Rule {
-    expected: "a force > 0 N, or inf for a storey that stays elastic",
-    in_kn_t: Some("a force > 0 kN, or inf for a storey that stays elastic"),
-    holds: |force| force > 0.0,
-};
+pub const YIELD_FORCE: Rule = Rule::of_force(
+    "a force > 0 N, or inf for a storey that stays elastic",
+    "a force > 0 kN, or inf for a storey that stays elastic",
+    |force| force > 0.0,
+);
 /// `post_yield_ratio` of a storey or a link.
-pub const POST_YIELD_RATIO: Rule =
-    Rule { expected: "0 <= r < 1", in_kn_t: None, holds: |ratio| (0.0..1.0).contains(&ratio) };
+pub const POST_YIELD_RATIO: Rule = Rule::of("0 <= r < 1", |ratio| (0.0..1.0).contains(&ratio));
 /// `gravity_load` of a floor, N.
-pub const GRAVITY_LOAD: Rule =
-    Rule { expected: "a finite weight >= 0 N", in_kn_t: Some("a finite weight >= 0 kN"), holds: |load| load >= 0.0 };
+pub const GRAVITY_LOAD: Rule = Rule::of_force("a finite weight >= 0 N", "a finite weight >= 0 kN", |load| load >= 0.0);
 /// `collapse_drift_ratio` of a building.
-pub const COLLAPSE_DRIFT_RATIO: Rule =
-    Rule { expected: "a finite share of the height > 0", in_kn_t: None, holds: |ratio| ratio > 0.0 };
+pub const COLLAPSE_DRIFT_RATIO: Rule = Rule::of("a finite share of the height > 0", |ratio| ratio > 0.0);
 /// Every damping ratio, 1 = critical.
-pub const DAMPING_RATIO: Rule =
-    Rule { expected: "a finite damping ratio >= 0", in_kn_t: None, holds: |ratio| ratio >= 0.0 };
+pub const DAMPING_RATIO: Rule = Rule::of("a finite damping ratio >= 0", |ratio| ratio >= 0.0);
 /// `initial_displacement`, m.
-pub const DISPLACEMENT: Rule = Rule { expected: "a finite displacement in m", in_kn_t: None, holds: |_| true };
+pub const DISPLACEMENT: Rule = Rule::of("a finite displacement in m", |_| true);
 /// `initial_velocity`, m/s.
-pub const VELOCITY: Rule = Rule { expected: "a finite velocity in m/s", in_kn_t: None, holds: |_| true };
+pub const VELOCITY: Rule = Rule::of("a finite velocity in m/s", |_| true);
 /// `height` of a storey, m.
-pub const STOREY_HEIGHT: Rule = Rule { expected: "a finite height > 0 m", in_kn_t: None, holds: |h| h > 0.0 };
+pub const STOREY_HEIGHT: Rule = Rule::of("a finite height > 0 m", |h| h > 0.0);
 /// `base_level`, m.
-pub const LEVEL: Rule = Rule { expected: "a finite level in m", in_kn_t: None, holds: |_| true };
+pub const LEVEL: Rule = Rule::of("a finite level in m", |_| true);
 /// `left_position`, `right_position`: where columns are hit.
-pub const POSITION: Rule = Rule { expected: "0 < s < 1", in_kn_t: None, holds: |s| s > 0.0 && s < 1.0 };
+pub const POSITION: Rule = Rule::of("0 < s < 1", |s| s > 0.0 && s < 1.0);
 /// `level_tolerance`, m.
-pub const LEVEL_TOLERANCE: Rule = Rule { expected: "a finite distance >= 0 m", in_kn_t: None, holds: |d| d >= 0.0 };
+pub const LEVEL_TOLERANCE: Rule = Rule::of("a finite distance >= 0 m", |d| d >= 0.0);
 /// `dashpots` of a storey, `dashpot` of a link, N s/m.
-pub const DASHPOT: Rule = Rule {
-    expected: "a finite dashpot >= 0 N s/m",
-    in_kn_t: Some("a finite dashpot >= 0 kN s/m"),
-    holds: |c| c >= 0.0,
-};
+pub const DASHPOT: Rule = Rule::of_force("a finite dashpot >= 0 N s/m", "a finite dashpot >= 0 kN s/m", |c| c >= 0.0);
 /// `stiffness` of a link, N/m.
-pub const LINK_STIFFNESS: Rule = Rule {
-    expected: "a finite stiffness >= 0 N/m",
-    in_kn_t: Some("a finite stiffness >= 0 kN/m"),
-    holds: |k| k >= 0.0,
-};
+pub const LINK_STIFFNESS: Rule =
+    Rule::of_force("a finite stiffness >= 0 N/m", "a finite stiffness >= 0 kN/m", |k| k >= 0.0);
 /// `slip_force` of a link, N.
-pub const SLIP_FORCE: Rule =
-    Rule { expected: "a finite force > 0 N", in_kn_t: Some("a finite force > 0 kN"), holds: |force| force > 0.0 };
+pub const SLIP_FORCE: Rule = Rule::of_force("a finite force > 0 N", "a finite force > 0 kN", |force| force > 0.0);
 /// `ground.scale`.
-pub const SCALE: Rule = Rule { expected: "a finite factor", in_kn_t: None, holds: |_| true };
+pub const SCALE: Rule = Rule::of("a finite factor", |_| true);
 /// `ground.pga`, m/s2.
-pub const PGA: Rule = Rule { expected: "a finite peak acceleration > 0 m/s2", in_kn_t: None, holds: |a| a > 0.0 };
+pub const PGA: Rule = Rule::of("a finite peak acceleration > 0 m/s2", |a| a > 0.0);
 /// `gap`, m: 0 is contact at rest, less is pre-compressed.
-pub const GAP: Rule = Rule { expected: "a finite distance in m", in_kn_t: None, holds: |_| true };
+pub const GAP: Rule = Rule::of("a finite distance in m", |_| true);
 /// `stiffness` of a contact, N/m^exponent.
 pub const CONTACT_STIFFNESS: Rule =
-    Rule { expected: "a finite stiffness > 0", in_kn_t: Some("a finite stiffness > 0 kN/m^n"), holds: |k| k > 0.0 };
+    Rule::of_force("a finite stiffness > 0", "a finite stiffness > 0 kN/m^n", |k| k > 0.0);
 /// `exponent` of a contact.
-pub const EXPONENT: Rule = Rule { expected: "1 <= n <= 3", in_kn_t: None, holds: |n| (1.0..=3.0).contains(&n) };
+pub const EXPONENT: Rule = Rule::of("1 <= n <= 3", |n| (1.0..=3.0).contains(&n));
 /// `restitution` of a contact.
-pub const RESTITUTION: Rule = Rule { expected: "0 < e <= 1", in_kn_t: None, holds: |e| e > 0.0 && e <= 1.0 };
+pub const RESTITUTION: Rule = Rule::of("0 < e <= 1", |e| e > 0.0 && e <= 1.0);
 /// `restitution` of an instantaneous impact; 0 is a plastic one.
-pub const IMPULSE_RESTITUTION: Rule =
-    Rule { expected: "0 <= e <= 1", in_kn_t: None, holds: |e| (0.0..=1.0).contains(&e) };
+pub const IMPULSE_RESTITUTION: Rule = Rule::of("0 <= e <= 1", |e| (0.0..=1.0).contains(&e));
 /// `relative_tolerance`: from rounding errors to a solution that is one in name only.
-pub const RELATIVE_TOLERANCE: Rule = Rule {
-    expected: "1e-15 < tolerance <= 1e-2",
-    in_kn_t: None,
-    holds: |tolerance| tolerance > 1e-15 && tolerance <= 1e-2,
-};
+pub const RELATIVE_TOLERANCE: Rule =
+    Rule::of("1e-15 < tolerance <= 1e-2", |tolerance| tolerance > 1e-15 && tolerance <= 1e-2);
 /// `min_approach_velocity`, m/s.
-pub const MIN_APPROACH_VELOCITY: Rule =
-    Rule { expected: "a finite velocity > 0 m/s", in_kn_t: None, holds: |v| v > 0.0 };
+pub const MIN_APPROACH_VELOCITY: Rule = Rule::of("a finite velocity > 0 m/s", |v| v > 0.0);

@@ -12,6 +12,9 @@ pub enum Side {
 }
 
 impl Side {
+    /// Both, the left one first.
+    pub const BOTH: [Side; 2] = [Side::Left, Side::Right];
+
     /// As in keys and names of variables.
     pub const fn name(self) -> &'static str {
         match self {

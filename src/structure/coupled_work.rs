@@ -6,7 +6,7 @@
 use super::bodies::Body;
 use super::coupled_rates::Rates;
 use super::equations::Structure;
-use super::form::{Form, Squares};
+use super::form::{Form, Squares, row_times, squares};
 use super::lanes::LANES;
 use super::modes::ModalDamping;
 use nalgebra::{DMatrix, RowDVector};
@@ -132,12 +132,12 @@ impl CoupledWork {
         for (l, work) in &self.links {
             add(&mut dashpots[*l], &work.of_vectors(z));
         }
-        let [held, rising] = self.input.each_ref().map(|row| times_vectors(row.as_slice(), z));
+        let [held, rising] = self.input.each_ref().map(|row| row_times(row.as_slice(), z));
         CoupledEnergy {
             input: std::array::from_fn(|k| z[2 * n][k] * held[k] + z[2 * n + 1][k] * rising[k]),
             viscous: self.viscous.of_vectors(z),
-            kinetic: squares(std::iter::repeat(&0.5), &z[n..2 * n]),
-            strain: squares(self.half_omega2.iter(), &z[..n]),
+            kinetic: squares(std::iter::repeat(0.5), &z[n..2 * n]),
+            strain: squares(self.half_omega2.iter().copied(), &z[..n]),
         }
     }
 }
@@ -145,26 +145,4 @@ impl CoupledWork {
 /// Adds numbers to others.
 fn add(sums: &mut Abreast, numbers: &Abreast) {
     sums.iter_mut().zip(numbers).for_each(|(sum, number)| *sum += number);
-}
-
-/// The sum of weights times squares, of several vectors side by side.
-fn squares<'a>(weights: impl Iterator<Item = &'a f64>, z: &[Abreast]) -> Abreast {
-    let mut sums = [0.0; ABREAST];
-    for (weight, numbers) in weights.zip(z) {
-        for k in 0..ABREAST {
-            sums[k] += weight * numbers[k] * numbers[k];
-        }
-    }
-    sums
-}
-
-/// A row times several vectors, side by side.
-fn times_vectors(row: &[f64], z: &[Abreast]) -> Abreast {
-    let mut sums = [0.0; ABREAST];
-    for (entry, numbers) in row.iter().zip(z) {
-        for k in 0..ABREAST {
-            sums[k] += entry * numbers[k];
-        }
-    }
-    sums
 }

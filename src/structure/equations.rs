@@ -4,7 +4,7 @@ use super::base_shear::BaseShear;
 use super::bodies::Body;
 use super::flight_modes::FlightModes;
 use super::floors::Floors;
-use super::form::Form;
+use super::form::{Form, row_times, squares};
 use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
@@ -411,14 +411,13 @@ impl Structure {
     /// Sums over modes of participation times velocity, kg m/s, and the power of damping, W, of several motions side by side;
     /// writes those of the dashpots of links.
     pub(super) fn powers_of<const N: usize>(&self, v: &[[f64; N]], dashpots: &mut [[f64; N]]) -> [[f64; N]; 2] {
-        let [momentum, mut viscous] = sums_over_modes(&self.participation, &self.damping, v);
+        let (momentum, mut viscous) = (row_times(&self.participation, v), squares(self.damping.iter().copied(), v));
         for coupling in &self.coupling {
             let of_body = coupling.power.of_vectors(v);
             viscous.iter_mut().zip(of_body).for_each(|(power, of_body)| *power += of_body);
         }
         for (link, power) in self.links.iter().zip(dashpots) {
-            let [rate, _] = sums_over_modes(&link.row, &self.damping, v);
-            *power = rate.map(|rate| link.dashpot * (rate * rate));
+            *power = row_times(&link.row, v).map(|rate| link.dashpot * (rate * rate));
         }
         [momentum, viscous]
     }
@@ -535,17 +534,4 @@ fn add_multiple(row: &[f64], factor: f64, out: &mut [f64]) {
     for (out, row) in out.iter_mut().zip(row) {
         *out += row * factor;
     }
-}
-
-/// Sums over modes of a row times velocity, and of damping times velocity squared, of several motions side by side.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sums_over_modes<const N: usize>(row: &[f64], damping: &[f64], v: &[[f64; N]]) -> [[f64; N]; 2] {
-    let mut sums = [[0.0; N]; 2];
-    for ((row, c), v) in row.iter().zip(damping).zip(v) {
-        for i in 0..N {
-            sums[0][i] += row * v[i];
-            sums[1][i] += c * v[i] * v[i];
-        }
-    }
-    sums
 }

@@ -1,4 +1,4 @@
-//! Quadratic forms of vectors.
+//! Rows and quadratic forms of several vectors, side by side: the bits of each do not depend on the others.
 
 use super::lanes::{LANES, Lane};
 use nalgebra::DMatrix;
@@ -55,6 +55,26 @@ impl Squares {
     pub(super) fn of_vectors<const N: usize>(&self, z: &[[f64; N]]) -> [f64; N] {
         squares_of(&self.entries, &z[..self.size])
     }
+}
+
+/// A row times several vectors, side by side.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn row_times<const N: usize>(row: &[f64], z: &[[f64; N]]) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (entry, numbers) in row.iter().zip(z) {
+        (0..N).for_each(|k| sums[k] += entry * numbers[k]);
+    }
+    sums
+}
+
+/// The sum of weights times squares, of several vectors side by side.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn squares<W: Iterator<Item = f64>, const N: usize>(weights: W, z: &[[f64; N]]) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (weight, numbers) in weights.zip(z) {
+        (0..N).for_each(|k| sums[k] += weight * numbers[k] * numbers[k]);
+    }
+    sums
 }
 
 /// See [`Form`].

@@ -1,6 +1,6 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
-use super::facts::{Facts, Pace, how_many_times, median, nearest, stiffness_key};
+use super::facts::{Facts, Pace, how_many_times, inertia_of, mean_mass, median, nearest, stiffness_key};
 use super::found::Found;
 use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
@@ -15,7 +15,7 @@ const MOST_DAMPING: f64 = 0.3;
 const LEAST_DAMPING: f64 = 2e-4;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         let building = facts.building(side);
         let path = side;
         look_at_entries(facts, side, found);
@@ -32,15 +32,19 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let units = facts.scene.units;
-    for (index, factor) in odd_entries(&building.mass, &other.mass, |_| false) {
-        let text = format!(
-            "{} the masses of the floors beside it; all are in {}{}",
-            how_many_times(factor),
-            units.unit("kg"),
-            other_unit(factor, units, "kg")
-        );
-        found.quantity(format!("{}.mass[{}]", side, index + 1), building.mass[index], text);
-    }
+    let mut tell = |(key, unit): (&str, &str), values: &[f64], odd: Vec<(usize, f64)>, beside: &str| {
+        for (index, factor) in odd {
+            let times = how_many_times(factor);
+            let text = format!(
+                "{times} the {beside} beside it; all are in {}{}",
+                units.unit(unit),
+                other_unit(factor, units, unit)
+            );
+            found.quantity(format!("{side}.{key}[{}]", index + 1), values[index], text);
+        }
+    };
+    let odd = odd_entries(&building.mass, &other.mass, |_| false);
+    tell(("mass", "kg"), &building.mass, odd, "masses of the floors");
     let Stiffness::Shear(storeys) = &building.stiffness else { return };
     let others = match &other.stiffness {
         Stiffness::Shear(others) => others.as_slice(),
@@ -48,15 +52,7 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     };
     // A soft first storey is an isolated building, unless that makes it slower than any.
     let is_isolated = |(index, factor): (usize, f64)| index == 0 && factor < 1.0 && facts.pace(side) == Pace::Usual;
-    for (index, factor) in odd_entries(storeys, others, is_isolated) {
-        let text = format!(
-            "{} the stiffness of the storeys beside it; all are in {}{}",
-            how_many_times(factor),
-            units.unit("N/m"),
-            other_unit(factor, units, "N/m")
-        );
-        found.quantity(format!("{}.stiffness[{}]", side, index + 1), storeys[index], text);
-    }
+    tell(("stiffness", "N/m"), storeys, odd_entries(storeys, others, is_isolated), "stiffness of the storeys");
 }
 
 /// Entries far from their neighbours, and by what factor: at either end of the list by 50, within it by 8 from both
@@ -111,11 +107,11 @@ fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let found_here = format!("the first natural frequency is {} Hz, period {} s", short(1.0 / period), short(period));
     let neighbour_is_usual = facts.pace(side.opposite()) == Pace::Usual;
     // The neighbour, where it is sound, tells whether it is the masses.
-    let lighter = neighbour_is_usual.then(|| mean(&other.mass) / mean(&building.mass));
+    let lighter = neighbour_is_usual.then(|| mean_mass(other) / mean_mass(building));
     let units = facts.scene.units;
     let (far_too, (is_mass, meant)) = match facts.pace(side) {
         Pace::Fast => ("fast", meant_by_fast(units, lighter)),
-        Pace::Slow => ("slow", meant_by_slow(units, lighter, mean(&building.mass), period)),
+        Pace::Slow => ("slow", meant_by_slow(units, lighter, mean_mass(building), period)),
         Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => return,
     };
     let text = format!("{found_here}, far too {far_too} for {usual}; {meant}");
@@ -161,7 +157,7 @@ fn meant_by_slow(units: Units, lighter: Option<f64>, mass: f64, period: f64) -> 
 fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let both_usual = facts.pace == [Pace::Usual; 2] && other.mass.len() > 1;
-    let heavier = mean(&other.mass) / mean(&building.mass);
+    let heavier = mean_mass(other) / mean_mass(building);
     if !both_usual || heavier < 200.0 {
         return;
     }
@@ -184,10 +180,6 @@ fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
     found.quantities(format!("{}.mass", odd), &facts.building(odd).mass, text);
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
 fn storeys(count: usize) -> String {
     format!("{count} {}", if count == 1 { "storey" } else { "storeys" })
 }
@@ -201,8 +193,7 @@ fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &m
             let Some(index) = ratios.iter().position(|&ratio| odd_damping(ratio).is_some()) else { return };
             (format!("{path}.ratios[{}]", index + 1), ratios[index])
         }
-        Damping::Dashpots(storeys) => return look_at_dashpots(facts, side, storeys, found),
-        Damping::Matrix(rows) => return look_at_damping_matrix(facts, side, rows, found),
+        Damping::Dashpots(_) | Damping::Matrix(_) => return look_at_first_mode(facts, side, found),
     };
     if let Some(text) = odd_damping(ratio) {
         let meant = if ratio > MOST_DAMPING { percent(ratio) } else { String::new() };
@@ -225,48 +216,42 @@ fn odd_damping(ratio: f64) -> Option<String> {
     Some(format!("{meaning}; 1 is critical damping and buildings have 0.01 to 0.1"))
 }
 
-/// The dashpots may be those of isolators, which have three tenths of critical damping and more.
-fn look_at_dashpots(facts: &Facts<'_>, side: Side, storeys: &[f64], found: &mut Found) {
+/// Dashpots and matrices, by the damping that they give to the first mode. Dashpots may be those of isolators, which have three
+/// tenths of critical damping and more.
+fn look_at_first_mode(facts: &Facts<'_>, side: Side, found: &mut Found) {
     const MOST_OF_ISOLATORS: f64 = 1.0;
-    let Some(first) = swinging(facts, side) else { return };
-    let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
-    let damped: f64 = storeys.iter().zip(drifts).map(|(c, drift)| c * drift * drift).sum();
-    let ratio = ratio_of(first, damped, facts.building(side));
-    if ratio > MOST_OF_ISOLATORS || ratio > 0.0 && ratio < LEAST_DAMPING {
-        let text = odd_first_mode(ratio, facts.scene.units);
-        found.quantities(format!("{}.damping.dashpots", side), storeys, text);
+    let (Some(first), building) = (facts.swinging(side), facts.building(side)) else { return };
+    let (damped, most): (f64, f64) = match &building.damping {
+        Damping::Dashpots(storeys) => {
+            let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
+            (storeys.iter().zip(drifts).map(|(c, drift)| c * drift * drift).sum(), MOST_OF_ISOLATORS)
+        }
+        Damping::Matrix(rows) => {
+            let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
+            (rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum(), MOST_DAMPING)
+        }
+        Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => return,
+    };
+    let ratio = ratio_of(first, damped, building);
+    if !(ratio > most || ratio > 0.0 && ratio < LEAST_DAMPING) {
+        return;
     }
-}
-
-fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], found: &mut Found) {
-    let Some(first) = swinging(facts, side) else { return };
-    let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
-    let damped: f64 = rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum();
-    let ratio = ratio_of(first, damped, facts.building(side));
-    if odd_damping(ratio).is_some() {
-        let text = odd_first_mode(ratio, facts.scene.units);
-        found.matrix(format!("{}.damping.matrix", side), rows, text);
+    let text = format!(
+        "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they given \
+         in another unit?",
+        short(ratio),
+        facts.scene.units.unit("N s/m")
+    );
+    match &building.damping {
+        Damping::Dashpots(storeys) => found.quantities(format!("{side}.damping.dashpots"), storeys, text),
+        Damping::Matrix(rows) => found.matrix(format!("{side}.damping.matrix"), rows, text),
+        Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => {}
     }
-}
-
-/// The first mode of a building that swings as buildings do.
-fn swinging<'f>(facts: &'f Facts<'_>, side: Side) -> Option<&'f FirstMode> {
-    facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual)
 }
 
 /// Ratio of critical damping of the first mode: shape' C shape = 2 ratio omega shape' M shape.
 fn ratio_of(first: &FirstMode, damped: f64, building: &Building) -> f64 {
-    let inertia: f64 = building.mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
-    damped / (2.0 * first.omega * inertia)
-}
-
-fn odd_first_mode(ratio: f64, units: Units) -> String {
-    format!(
-        "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they given \
-         in another unit?",
-        short(ratio),
-        units.unit("N s/m")
-    )
+    damped / (2.0 * first.omega * inertia_of(first, building))
 }
 
 /// Initial motion beyond what a building stands.
@@ -280,15 +265,12 @@ fn look_at_start(facts: &Facts<'_>, side: Side, building: &Building, found: &mut
     let displacement = largest(&building.initial_displacement);
     let pull = omega * omega * displacement / STANDARD_GRAVITY;
     if displacement > 0.3 * building.mass.len() as f64 || pull > 5.0 {
-        let held = if pull > 1.0 {
-            format!(", held by forces of some {} times its weight", short(pull))
-        } else {
-            String::new()
-        };
-        let text = format!(
-            "the building starts up to {} m aside{held}; displacements are in m, were they given in mm?",
-            short(displacement)
-        );
+        let times = short(pull);
+        let held =
+            if pull > 1.0 { format!(", held by forces of some {times} times its weight") } else { String::new() };
+        let aside = short(displacement);
+        let text =
+            format!("the building starts up to {aside} m aside{held}; displacements are in m, were they given in mm?");
         found.numbers(format!("{}.initial_displacement", side), &building.initial_displacement, text);
     }
     look_at_speed(side, building, omega, largest(&building.initial_velocity), found);

@@ -141,7 +141,7 @@ fn wide_gap(facts: &Facts<'_>, pair: &ContactPair, ground_is_odd: bool) -> Odd {
         return Some((gap, text));
     }
     facts.peak.filter(|_| !ground_is_odd)?;
-    let reach: f64 = [Side::Left, Side::Right].into_iter().filter_map(|side| facts.sway(side)).sum();
+    let reach: f64 = Side::BOTH.into_iter().filter_map(|side| facts.sway(side)).sum();
     let is_known = !facts.pace.iter().any(|pace| !matches!(pace, Pace::Usual | Pace::Wall));
     let is_wide = is_known && gap > 5.0 * reach && gap > 0.02 && gap < FAR_AWAY;
     is_wide.then(|| {
@@ -211,5 +211,5 @@ fn low_restitution(pair: &ContactPair) -> Odd {
 }
 
 fn has(pair: &ContactPair, key: LawKey) -> bool {
-    pair.law.kind.info().keys.contains(&key) && law_key::number(key).rule.holds((law_key::number(key).get)(&pair.law))
+    pair.law.kind.info().keys.contains(&key) && law_key::number(key).rule.holds(law_key::number(key).get(&pair.law))
 }

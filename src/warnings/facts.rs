@@ -1,8 +1,8 @@
 //! What the rules share.
 
 use crate::figures::short;
-use crate::record::Record;
-use crate::scene::{Building, Scene, Stiffness};
+use crate::record::{Record, STANDARD_GRAVITY};
+use crate::scene::{Building, Scene, Stiffness, Units};
 use crate::structure::{FirstMode, Side};
 use std::f64::consts::PI;
 
@@ -40,7 +40,7 @@ impl<'a> Facts<'a> {
         let peak = record.zip(factor).map(|(record, factor)| (factor * record.peak()).abs());
         let first = [&scene.left, &scene.right].map(|building| FirstMode::of(building).ok());
         let mut facts = Facts { scene, record, peak, first, pace: [Pace::Unknown; 2] };
-        facts.pace = [Side::Left, Side::Right].map(|side| facts.find_pace(side));
+        facts.pace = Side::BOTH.map(|side| facts.find_pace(side));
         facts
     }
 
@@ -55,6 +55,11 @@ impl<'a> Facts<'a> {
     /// s.
     pub(super) fn period(&self, side: Side) -> Option<f64> {
         self.first[side as usize].as_ref().map(|first| 2.0 * PI / first.omega)
+    }
+
+    /// The first mode of a building that swings as buildings do.
+    pub(super) fn swinging(&self, side: Side) -> Option<&FirstMode> {
+        self.first[side as usize].as_ref().filter(|_| self.pace(side) == Pace::Usual)
     }
 
     /// How far a building that swings as buildings do sways under the ground motion, m, if not by more than usual.
@@ -73,7 +78,7 @@ impl<'a> Facts<'a> {
     /// s of the buildings that swing as buildings do.
     pub(super) fn usual_periods(&self) -> impl Iterator<Item = (Side, f64)> + '_ {
         let usual = |side| (self.pace(side) == Pace::Usual).then(|| self.period(side)).flatten();
-        [Side::Left, Side::Right].into_iter().filter_map(move |side| Some((side, usual(side)?)))
+        Side::BOTH.into_iter().filter_map(move |side| Some((side, usual(side)?)))
     }
 
     fn find_pace(&self, side: Side) -> Pace {
@@ -118,6 +123,17 @@ fn slowest(floors: usize) -> f64 {
     4.5 + 0.15 * floors.min(MOST_STOREYS) as f64
 }
 
+/// How many times the weight above, or that in the peak ground acceleration where it is known, no storey and no device has to
+/// carry: not even resonance and blows of a neighbour take one that far.
+pub(super) const NEVER_REACHED: f64 = 20.0;
+/// g: weaker records are of a ground motion that will be scaled.
+const LEAST_SHAKING: f64 = 0.1;
+
+/// g, from the peak of the ground's acceleration, m/s2, where it is known and not 0; else 1.
+pub(super) fn shaken(peak: Option<f64>) -> f64 {
+    peak.filter(|peak| *peak > 0.0).map_or(1.0, |peak| (peak / STANDARD_GRAVITY).max(LEAST_SHAKING))
+}
+
 /// More are a way to divide a building into pieces, not storeys.
 const MOST_STOREYS: usize = 100;
 
@@ -126,6 +142,27 @@ pub(super) fn stiffness_key(building: &Building) -> &'static str {
     match building.stiffness {
         Stiffness::Shear(_) => "stiffness",
         Stiffness::Matrix(_) => "stiffness_matrix",
+    }
+}
+
+/// sum of m x^2 of a building in its first mode.
+pub(super) fn inertia_of(first: &FirstMode, building: &Building) -> f64 {
+    building.mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum()
+}
+
+/// kg of a floor on average.
+pub(super) fn mean_mass(building: &Building) -> f64 {
+    building.mass.iter().sum::<f64>() / building.mass.len().max(1) as f64
+}
+
+/// What a number in a scene in units of the first kind may have been given in, where that is a unit of the second kind; `si` is
+/// its unit in the SI.
+pub(super) fn was_given((units, odd): (Units, Units), si: &str) -> String {
+    let meant = if odd == Units::Si { Units::KilonewtonTonne } else { Units::Si };
+    if units == odd {
+        format!("; it is in {}, was it given in {}?", odd.unit(si), meant.unit(si))
+    } else {
+        String::new()
     }
 }
 

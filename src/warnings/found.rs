@@ -1,6 +1,6 @@
 //! What the rules have found.
 
-use crate::scene::{Units, excerpt, matrix_text, number, numbers, quoted};
+use crate::scene::{Units, excerpt, matrix_text, number, numbers};
 use std::fmt;
 
 /// One thing that looks like a slip.
@@ -51,6 +51,21 @@ impl Found {
         self.numbers(path, &values.iter().map(|&value| self.units.written(value)).collect::<Vec<_>>(), text);
     }
 
+    /// Odd entries of a list that several may be odd in: one line where all of them are, with the text about the first.
+    pub(super) fn entries(
+        &mut self,
+        path: &str,
+        values: &[f64],
+        odd: &[usize],
+        all: usize,
+        text: impl Fn(usize) -> String,
+    ) {
+        match odd {
+            [first, _, ..] if odd.len() == all => self.quantities(path, values, text(*first)),
+            _ => odd.iter().for_each(|&i| self.quantity(format!("{path}[{}]", i + 1), values[i], text(i))),
+        }
+    }
+
     pub(super) fn matrix(&mut self, path: impl Into<String>, rows: &[Vec<f64>], text: impl Into<String>) {
         self.add(path, matrix_text(rows, self.units), text);
     }
@@ -62,10 +77,6 @@ impl Found {
 
     pub(super) fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
         self.add(path, excerpt(&numbers(values)), text);
-    }
-
-    pub(super) fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
-        self.add(path, quoted(value), text);
     }
 
     pub(super) fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {

@@ -1,7 +1,7 @@
 //! Gravity on storeys that lean: left out where it matters, weights in other units, storeys that may fall.
 
 use super::facts::{Facts, Pace, how_many_times};
-use super::found::Found;
+use super::found::{Found, LIKEWISE};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, NetStorey, PDelta, Stiffness, Units};
@@ -19,7 +19,7 @@ const ISOLATION_HEIGHT: f64 = 0.5;
 const ISOLATION_STIFFNESS: f64 = 0.125;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         let building = facts.building(side);
         let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{side}.{key}")));
         match &building.p_delta {
@@ -43,11 +43,9 @@ fn coefficients(building: &Building) -> Vec<(usize, f64)> {
     all.into_iter().map(|(storey, theta)| (storey + 1, theta)).collect()
 }
 
-/// The first of some storeys, and how many more there are.
-fn first_of(storeys: &[(usize, f64)]) -> Option<(usize, f64, String)> {
-    let (storey, value) = *storeys.first()?;
-    let more = storeys.len() - 1;
-    Some((storey, value, if more > 0 { format!(" (likewise {more} more)") } else { String::new() }))
+/// How many storeys there are of which the same is to be said as of the first.
+fn likewise<T>(storeys: &[T]) -> String {
+    if storeys.len() > 1 { format!("{LIKEWISE}{} more)", storeys.len() - 1) } else { String::new() }
 }
 
 /// Heights are there, and with them the weights would be a good part of the stiffness.
@@ -63,11 +61,12 @@ fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
     };
     let mut storeys = coefficients(&leaning);
     storeys.retain(|(storey, theta)| *theta > NEGLIGIBLE && !(has_bearings && *storey == 1));
-    let Some((storey, theta, more)) = first_of(&storeys) else { return };
+    let Some((storey, theta)) = storeys.first() else { return };
     let text = format!(
-        "the weight above storey {storey} over its height is {} of its stiffness{more}, and codes neglect no more than 0.1: \
-         it matters, add p_delta = true",
-        short(theta)
+        "the weight above storey {storey} over its height is {} of its stiffness{}, and codes neglect no more than 0.1: it \
+         matters, add p_delta = true",
+        short(*theta),
+        likewise(&storeys)
     );
     found.add(format!("{side}.p_delta"), "false".to_owned(), text);
 }
@@ -75,11 +74,12 @@ fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
 fn look_at_coefficients((side, building, p_delta): (Side, &Building, &PDelta), found: &mut Found) {
     let mut storeys = coefficients(building);
     storeys.retain(|(_, theta)| *theta > MOST_ALLOWED);
-    let Some((storey, theta, more)) = first_of(&storeys) else { return };
+    let Some((storey, theta)) = storeys.first() else { return };
     let text = format!(
-        "storey {storey} has the stability coefficient {}{more}, and codes forbid more than 0.3; is the height right, and \
-         is it a storey? For a level of bearings say false",
-        short(theta)
+        "storey {storey} has the stability coefficient {}{}, and codes forbid more than 0.3; is the height right, and is it \
+         a storey? For a level of bearings say false",
+        short(*theta),
+        likewise(&storeys)
     );
     found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
@@ -102,13 +102,13 @@ fn look_at_falls((side, building, p_delta): (Side, &Building, &PDelta), found: &
     } else {
         String::new()
     };
-    let more = if storeys.len() > 1 { format!(" (likewise {} more)", storeys.len() - 1) } else { String::new() };
     let text = format!(
         "the stiffness after yield of storey {} is negative, {} of the initial one; it can collapse beyond a drift of {} m\
-         {near}{more}",
+         {near}{}",
         storey + 1,
         short(net.ratio - net.theta()),
-        short(*critical)
+        short(*critical),
+        likewise(&storeys)
     );
     found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
@@ -142,14 +142,7 @@ fn look_at_loads(facts: &Facts<'_>, (side, p_delta): (Side, &PDelta), found: &mu
             false => "no floor weighs anything, which p_delta = false would say as well".to_owned(),
         }
     };
-    match odd[..] {
-        [first, _, ..] if odd.len() == loads.len() => {
-            found.quantities(format!("{side}.gravity_load"), loads, text(first));
-        }
-        _ => odd.iter().for_each(|&floor| {
-            found.quantity(format!("{side}.gravity_load[{}]", floor + 1), loads[floor], text(floor));
-        }),
-    }
+    found.entries(&format!("{side}.gravity_load"), loads, &odd, loads.len(), text);
 }
 
 /// What else than weights in the units of the scene may have been given.

@@ -4,7 +4,7 @@ use super::facts::{Facts, Pace};
 use super::found::Found;
 use crate::figures::short;
 use crate::record::{Record, STANDARD_GRAVITY};
-use crate::scene::Scaling;
+use crate::scene::{Scaling, quoted};
 use crate::structure::Side;
 
 /// In g: the smallest peak of a ground motion that buildings feel, and the largest that has been recorded.
@@ -62,7 +62,7 @@ fn look_at_times(facts: &Facts<'_>, record: &Record, found: &mut Found) {
     } else {
         return;
     };
-    found.text("ground.record", name(facts), text);
+    found.add("ground.record", quoted(name(facts)), text);
 }
 
 fn name<'a>(facts: &Facts<'a>) -> &'a str {
@@ -99,7 +99,7 @@ fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
         }
         // The record by itself is odd in the same way: the factor is not to blame.
         Scaling::Scale(scale) if scale != 0.0 && is_odd(own) && (own < LEAST_PEAK) == (shaken < LEAST_PEAK) => {
-            found.text("ground.record", name(facts), format!("{meaning}; {}", meant_record(facts, own)));
+            found.add("ground.record", quoted(name(facts)), format!("{meaning}; {}", meant_record(facts, own)));
         }
         Scaling::Scale(scale) => {
             let text = format!("{meaning}; scale is a factor on the record, whose peak is {} g", short(own));

@@ -7,11 +7,11 @@ use crate::figures::six_decimals;
 use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side};
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         order::look_at_heights(side, facts.building(side), found);
         look_at_unit_of_heights(facts.scene, side, found);
     }
-    if [Side::Left, Side::Right].iter().any(|side| found.has(&format!("{side}.height"))) {
+    if Side::BOTH.iter().any(|side| found.has(&format!("{side}.height"))) {
         return;
     }
     if let Some(tolerance) = facts.scene.facing {
@@ -91,7 +91,8 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
     let [Some(left), Some(right)] = [&scene.left.heights, &scene.right.heights] else { return };
     for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {
         let base = other.base_level;
-        let is_met = |floor: usize| scene.contacts.iter().any(|pair| has_floor(pair, side, floor));
+        let has = |pair: &ContactPair, floor: usize| [pair.left, pair.right].contains(&Face::Floor(side, floor));
+        let is_met = |floor: usize| scene.contacts.iter().any(|pair| has(pair, floor));
         let buried =
             (1..=own.storeys.len()).find(|floor| own.level(*floor) <= base + LEVEL_ROUNDING && !is_met(*floor));
         if let Some(floor) = buried {
@@ -104,10 +105,6 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
             found.number(format!("{}.base_level", side.opposite()), base, text);
         }
     }
-}
-
-fn has_floor(pair: &ContactPair, side: Side, floor: usize) -> bool {
-    [pair.left, pair.right].contains(&Face::Floor(side, floor))
 }
 
 /// A pair whose faces are not at one level.

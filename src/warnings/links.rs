@@ -1,6 +1,6 @@
 //! Links that act as ties, and springs that never slip or always do. What several links have in common is told of the first.
 
-use super::facts::{Facts, Pace};
+use super::facts::{Facts, NEVER_REACHED, inertia_of, shaken, was_given};
 use super::found::{Found, Odd};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
@@ -10,11 +10,6 @@ use crate::scene::{Building, Link, Place, Side, Stiffness, Units};
 const TIE: f64 = 10.0;
 /// Times critical damping of the motion of its ends relative to each other: from there on a dashpot is as good as rigid.
 const OVERDAMPED: f64 = 10.0;
-/// How many times the weight of the lighter building, or that in the peak ground acceleration where it is known, no
-/// device has to carry.
-const NEVER_REACHED: f64 = 20.0;
-/// g: weaker records are of a ground motion that will be scaled.
-const LEAST_SHAKING: f64 = 0.1;
 /// Times what the buildings sway: no motion reaches that.
 const OUT_OF_REACH: f64 = 5.0;
 /// Share of the weight of the lighter floor that every motion exceeds.
@@ -64,9 +59,8 @@ fn stiffest(building: &Building) -> f64 {
 fn overdamped(facts: &Facts<'_>, link: &Link) -> Odd {
     let swinging = link.ends().filter_map(|(side, place, _)| {
         let Place::Floor(floor) = place else { return None };
-        let first = facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual)?;
-        let inertia: f64 = facts.building(side).mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
-        Some((first.shape[floor].powi(2) / inertia, first.omega))
+        let first = facts.swinging(side)?;
+        Some((first.shape[floor].powi(2) / inertia_of(first, facts.building(side)), first.omega))
     });
     let (inverse_mass, omega) = swinging.fold((0.0, 0.0_f64), |(sum, most), (one, omega)| (sum + one, most.max(omega)));
     if omega == 0.0 {
@@ -89,12 +83,13 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
     let peak = facts.peak.filter(|peak| *peak > 0.0 && !ground_is_odd);
     let weight = |side: Side| STANDARD_GRAVITY * facts.building(side).mass.iter().sum::<f64>();
     let share = slip.force / link.ends().map(|(side, ..)| weight(side)).fold(f64::INFINITY, f64::min);
-    let shaken = peak.map_or(1.0, |peak| (peak / STANDARD_GRAVITY).max(LEAST_SHAKING));
     let sways = || link.ends().map(|(side, ..)| facts.sway(side)).sum::<Option<f64>>();
     let reach = peak.and_then(|_| sways()).filter(|_| !facts.starts_moving());
     let travel = slip.force / link.stiffness;
     let why = match reach {
-        _ if share > NEVER_REACHED * shaken => format!("{} times the weight of the lighter building", short(share)),
+        _ if share > NEVER_REACHED * shaken(peak) => {
+            format!("{} times the weight of the lighter building", short(share))
+        }
         Some(reach) if travel > OUT_OF_REACH * reach => format!(
             "reached at a displacement of {} m, where under this ground motion its ends move by some {} m",
             short(travel),
@@ -102,7 +97,7 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
         ),
         _ => return None,
     };
-    let given = if facts.scene.units == Units::KilonewtonTonne { "; it is in kN, was it given in N?" } else { "" };
+    let given = was_given((facts.scene.units, Units::KilonewtonTonne), "N");
     Some((slip.force, format!("{why}: the spring will never slip, which no slip_force would say as well{given}")))
 }
 
@@ -111,7 +106,7 @@ fn always_slips(facts: &Facts<'_>, link: &Link) -> Odd {
     let weight = |side: Side, place: Place| STANDARD_GRAVITY * facts.building(side).inertia(place);
     let share = slip.force / link.ends().map(|(side, place, _)| weight(side, place)).fold(f64::INFINITY, f64::min);
     (share < ALWAYS_EXCEEDED).then(|| {
-        let given = if facts.scene.units == Units::Si { "; it is in N, was it given in kN?" } else { "" };
+        let given = was_given((facts.scene.units, Units::Si), "N");
         let text = format!(
             "{} times the weight of the lighter floor: the spring will slip in every motion and hold nothing{given}",
             short(share)

@@ -22,7 +22,7 @@ pub(super) const HIGHEST_STOREY: f64 = 30.0;
 
 /// Masses, stiffnesses and yield forces that grow upwards.
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         let building = facts.building(side);
         let mut look_at = |key: &str, values: &[f64], least: f64, others: &str| {
             let path = format!("{side}.{key}");

@@ -16,7 +16,7 @@ const RADII: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 const KILO: f64 = 1e3;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         let building = facts.building(side);
         // A building with other units makes its soil look odd.
         let (Some(foundation), false) = (&building.foundation, found.has(side.name())) else { continue };
@@ -31,13 +31,17 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 /// How much the springs of sway and rocking add to the square of the first period, as shares of that on a fixed base: those
 /// of one mass on a column, whose mass, stiffness and height are those of the first mode.
 fn springs((building, first): (&Building, &FirstMode), foundation: &Foundation) -> [f64; 2] {
-    let levels = building.heights.iter().flat_map(|heights| (1..).map(|i| heights.level(i) - heights.base_level));
     let moving = || building.mass.iter().zip(&first.shape);
     let [all, squares] = [1, 2].map(|power| moving().map(|(m, x)| m * x.powi(power)).sum::<f64>());
-    let height = moving().zip(levels).map(|((m, x), level)| m * x * level).sum::<f64>() / all;
+    let height = moving().zip(levels(building)).map(|((m, x), level)| m * x * level).sum::<f64>() / all;
     let stiffness = first.omega * first.omega * all * all / squares;
     let share = |soil: Option<Soil>, of: f64| soil.map_or(0.0, |soil| of / soil.stiffness);
     [share(foundation.sway, stiffness), share(foundation.rocking, stiffness * height * height)]
+}
+
+/// m, of the floors above the foundation.
+fn levels(building: &Building) -> impl Iterator<Item = f64> {
+    building.heights.iter().flat_map(|heights| (1..).map(|i| heights.level(i) - heights.base_level))
 }
 
 fn look_at_period((facts, side): (&Facts<'_>, Side), foundation: &Foundation, shares: [f64; 2], found: &mut Found) {
@@ -51,30 +55,28 @@ fn look_at_period((facts, side): (&Facts<'_>, Side), foundation: &Foundation, sh
     let Some(soil) = soil else { return };
     let path = format!("{side}.foundation.{key}.stiffness");
     let given = units.unit(unit);
-    if ratio > MOST_LENGTHENED {
+    let (text, is_in_other, other) = if ratio > MOST_LENGTHENED {
         let meant = shares[0].max(shares[1]) / KILO + shares[0].min(shares[1]);
         let is_in_kn = units == Units::Si && (HARDLY_LENGTHENED..MOST_LENGTHENED).contains(&(1.0 + meant).sqrt());
-        let hint = if is_in_kn { format!(", was it given in k{unit}?") } else { String::new() };
+        let times = short(ratio);
         let text = format!(
-            "with this soil the first period is {} times that on a fixed base, where soil seldom doubles it; it is in \
-             {given}{hint}",
-            short(ratio)
+            "with this soil the first period is {times} times that on a fixed base, where soil seldom doubles it"
         );
-        found.quantity(path, soil.stiffness, text);
+        (text, is_in_kn, format!("k{unit}"))
     } else if ratio < HARDLY_LENGTHENED {
-        let hint = if units == Units::KilonewtonTonne { format!(", was it given in {unit}?") } else { String::new() };
-        let text = format!(
-            "hardly any soil: the first period is {ratio:.7} times that on a fixed base, which no foundation would say as \
-             well; it is in {given}{hint}"
-        );
-        found.quantity(path, soil.stiffness, text);
-    }
+        let times = format!("the first period is {ratio:.7} times that on a fixed base");
+        let text = format!("hardly any soil: {times}, which no foundation would say as well");
+        (text, units == Units::KilonewtonTonne, unit.to_owned())
+    } else {
+        return;
+    };
+    let hint = if is_in_other { format!(", was it given in {other}?") } else { String::new() };
+    found.quantity(path, soil.stiffness, format!("{text}; it is in {given}{hint}"));
 }
 
 /// Judged by the building as a rigid body on the soil.
 fn look_at_dashpots((side, building): (Side, &Building), foundation: &Foundation, found: &mut Found) {
-    let levels = building.heights.iter().flat_map(|heights| (1..).map(|i| heights.level(i) - heights.base_level));
-    let turned: f64 = building.mass.iter().zip(levels).map(|(m, level)| m * level * level).sum();
+    let turned: f64 = building.mass.iter().zip(levels(building)).map(|(m, level)| m * level * level).sum();
     let mass = foundation.mass + building.mass.iter().sum::<f64>();
     let of = [("sway", foundation.sway, mass), ("rocking", foundation.rocking, foundation.inertia + turned)];
     for (key, soil, inertia) in of {

@@ -97,6 +97,6 @@ fn speed(facts: &Facts<'_>) -> f64 {
         peak * period / (2.0 * PI)
     });
     let start = |side| facts.building(side).initial_velocity.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    let most = [Side::Left, Side::Left.opposite()].into_iter().map(start).fold(shaken, f64::max);
+    let most = Side::BOTH.into_iter().map(start).fold(shaken, f64::max);
     if most > 0.0 { most.clamp(0.05, 2.0) } else { 0.3 }
 }

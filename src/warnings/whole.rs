@@ -1,10 +1,10 @@
 //! Scenes in which every mass and every stiffness is in other units: periods and contacts are then as they should be, and
 //! only the size of the masses tells.
 
-use super::facts::{Facts, Pace};
+use super::facts::{Facts, Pace, mean_mass};
 use super::found::Found;
 use crate::figures::short;
-use crate::scene::{Building, Units};
+use crate::scene::Units;
 use crate::structure::Side;
 
 /// Where a scene has been given in t and kN without saying so.
@@ -52,8 +52,4 @@ fn is_like_buildings(facts: &Facts<'_>, sides: &[(Side, f64)]) -> bool {
         && sides.iter().all(|&(side, period)| period >= FAST * floors(side) as f64)
         && !contacts.is_empty()
         && contacts.iter().all(|pair| pair.gap >= WIDE)
-}
-
-fn mean_mass(building: &Building) -> f64 {
-    building.mass.iter().sum::<f64>() / building.mass.len().max(1) as f64
 }

@@ -1,17 +1,12 @@
 //! Storeys that yield: forces that are never reached or always exceeded, and a damping that isolators do not have.
 
-use super::facts::{Facts, Pace, how_many_times, median, nearest};
+use super::facts::{Facts, NEVER_REACHED, Pace, how_many_times, median, nearest, shaken, was_given};
 use super::found::Found;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, Damping, Units};
 use crate::structure::Side;
 
-/// How many times the weight above, or that in the peak ground acceleration where it is known, no storey has to carry:
-/// not even resonance and blows of a neighbour take a storey that far.
-const NEVER_REACHED: f64 = 20.0;
-/// g: weaker records are of a ground motion that will be scaled.
-const LEAST_SHAKING: f64 = 0.1;
 /// Share of the weight above that even isolators have as their yield force, which are the first storey.
 const LEAST_ISOLATOR: f64 = 0.01;
 /// The same of storeys above.
@@ -24,7 +19,7 @@ const MUCH_STRONGER: f64 = 3.0;
 const ODD: f64 = 6.0;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in [Side::Left, Side::Right] {
+    for side in Side::BOTH {
         let storeys = Storey::all(facts.building(side));
         let is_sound = !found.has(&format!("{side}.mass")) && facts.pace(side) != Pace::Slow;
         if storeys.is_empty() || !is_sound {
@@ -63,33 +58,21 @@ impl Storey {
 
 /// Forces that make a storey one that never yields, or one that always does.
 fn look_at_forces(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut Found) {
-    let units = facts.scene.units;
-    let shaken = facts.peak.filter(|peak| *peak > 0.0).map_or(1.0, |peak| (peak / STANDARD_GRAVITY).max(LEAST_SHAKING));
+    let Some(yielding) = &facts.building(side).yielding else { return };
+    let shaken = shaken(facts.peak);
     let is_large = |storey: &&Storey| storey.share > NEVER_REACHED * shaken;
     let is_small = |storey: &&Storey| storey.share < if storey.index == 0 { LEAST_ISOLATOR } else { LEAST_STOREY };
-    let (large, small): (Vec<_>, Vec<_>) =
-        (storeys.iter().filter(is_large).collect(), storeys.iter().filter(is_small).collect());
-    let text = |storey: &Storey, meaning: &str| format!("{} times the weight above: {meaning}", short(storey.share));
-    if let Some(first) = large.first() {
-        let given = if units == Units::KilonewtonTonne { "; it is in kN, was it given in N?" } else { "" };
-        let meaning = format!("the storey will never yield, which inf would say as well{given}");
-        tell(facts, side, &large, storeys.len(), text(first, &meaning), found);
-    }
-    if let Some(first) = small.first() {
-        let given = if units == Units::Si { "; it is in N, was it given in kN?" } else { "" };
-        let meaning = format!("the storey will slide all the time; designs have 0.05 to 1{given}");
-        tell(facts, side, &small, storeys.len(), text(first, &meaning), found);
-    }
-}
-
-/// One line: of the storey, or of all that can yield where all are odd.
-fn tell(facts: &Facts<'_>, side: Side, odd: &[&Storey], all: usize, text: String, found: &mut Found) {
-    match (odd, &facts.building(side).yielding) {
-        ([_, _, ..], Some(yielding)) if odd.len() == all => {
-            found.quantities(format!("{side}.yield_force"), &yielding.force, text);
-        }
-        _ => odd.iter().for_each(|storey| found.quantity(storey.path(side), storey.force, text.as_str())),
-    }
+    let mut tell = |odd: Vec<&Storey>, meaning: &str, given_in: Units| {
+        let Some(first) = odd.first() else { return };
+        let given = was_given((facts.scene.units, given_in), "N");
+        let text = format!("{} times the weight above: {meaning}{given}", short(first.share));
+        let indices: Vec<usize> = odd.iter().map(|storey| storey.index).collect();
+        found.entries(&format!("{side}.yield_force"), &yielding.force, &indices, storeys.len(), |_| text.clone());
+    };
+    let never = "the storey will never yield, which inf would say as well";
+    tell(storeys.iter().filter(is_large).collect(), never, Units::KilonewtonTonne);
+    let always = "the storey will slide all the time; designs have 0.05 to 1";
+    tell(storeys.iter().filter(is_small).collect(), always, Units::Si);
 }
 
 /// Storeys far weaker or stronger for the weight above them than those beside. Isolators are weaker than what they carry.

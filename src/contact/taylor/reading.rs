@@ -8,8 +8,8 @@ use crate::numerics::powers::{Powers, Reading};
 /// The penetrations of a block at the end of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BlockReading {
-    /// Penetration, m.
-    pub penetration: Each,
+    /// m.
+    pub value: Each,
     /// Its derivative by x.
     pub slope: Each,
     /// Bound on its fourth derivative.
@@ -29,6 +29,13 @@ pub(crate) struct ForceReading {
     pub fourth: Each,
     /// Its integral over x.
     pub impulse: Each,
+}
+
+impl BlockReading {
+    /// Of one pair.
+    pub(crate) fn of(&self, lane: usize) -> Reading {
+        Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
+    }
 }
 
 impl ForceReading {
@@ -99,8 +106,8 @@ fn read(terms: &[Each], powers: &Powers) -> BlockReading {
         }
     }
     let (first, second) = (&terms[0], &terms[1]);
-    let penetration = each(|i| first[i] + (second[i] * powers.x + values[i]));
-    BlockReading { penetration, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
+    let value = each(|i| first[i] + (second[i] * powers.x + values[i]));
+    BlockReading { value, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
 }
 
 /// See [`PairBlock::releases`]: three steps of Newton's method from the root of the parabola of the first terms.

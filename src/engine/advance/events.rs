@@ -27,7 +27,7 @@ impl Model {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
                 // A pair that enters does not separate, except by rounding.
-                contact.rate = self.system.pairs[p].difference(base.coordinates, &base.v).0.max(0.0);
+                contact.rate = self.system.pairs[p].row.difference(base.coordinates, &base.v).0.max(0.0);
                 contact.at_surface = true;
                 let (pair, approach) = (&self.system.pairs[p], contact.rate.max(self.system.least_approach));
                 contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));

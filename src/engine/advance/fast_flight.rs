@@ -123,13 +123,6 @@ impl Model {
         state.counters.flight_steps -= 1;
         state.counters.flights_cleared -= u64::from(!self.system.pairs.is_empty());
     }
-
-    /// Makes the end of a flight the base.
-    #[inline(always)]
-    fn move_base(&self, base: &mut Base, step: &mut Step) {
-        std::mem::swap(&mut base.q, &mut step.planned.q);
-        std::mem::swap(&mut base.v, &mut step.planned.v);
-    }
 }
 
 /// The loop over segments that end by `until` and for which all pairs are cleared; returns the number of segments.
@@ -192,7 +185,8 @@ fn fly_many(
         }
         let motion = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
         account.add(motion, (segment.acceleration_at(0.0), segment.slope));
-        model.move_base(base, step);
+        std::mem::swap(&mut base.q, &mut step.planned.q);
+        std::mem::swap(&mut base.v, &mut step.planned.v);
         flown += 1;
     }
     account.store(base);

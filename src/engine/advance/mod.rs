@@ -315,9 +315,9 @@ impl Model {
             }
             // That of a closed contact the step has followed.
             if !contact.in_contact() {
-                contact.penetration = pair.penetration_at(base.rest.gaps[p], base);
+                contact.penetration = pair.row.value_at(base) - base.rest.gaps[p];
             }
-            contact.rate = pair.rate_at(base);
+            contact.rate = pair.row.rate_at(base);
         }
         base.contacts = contacts;
     }

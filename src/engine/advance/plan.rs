@@ -61,11 +61,9 @@ impl Model {
                 Ok(time) => time,
                 Err(event) => return plan_zero_length(at.base, planned, taylor, event),
             };
-        if let Some(p) = self.entry_at_once(at.base) {
-            return plan_zero_length(at.base, planned, taylor, Event::Entry(p));
-        }
-        if let Some(i) = self.system.turned_at_once(at.base) {
-            return plan_zero_length(at.base, planned, taylor, Event::Turn(i));
+        let turn = || self.system.turned_at_once(at.base).map(Event::Turn);
+        if let Some(event) = self.entry_at_once(at.base).map(Event::Entry).or_else(turn) {
+            return plan_zero_length(at.base, planned, taylor, event);
         }
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
         if !is_near_rigid && !at.base.is_yielding() {
@@ -92,7 +90,7 @@ impl Model {
         let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
         let meets = |(p, contact): (usize, &Contact)| {
             let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
-            stands && self.system.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
+            stands && self.system.pairs[p].row.difference(base.coordinates, &base.v).0 > 0.0
         };
         base.contacts.iter().enumerate().position(meets)
     }

@@ -151,14 +151,11 @@ impl Contact {
         self.episode = Episode {
             contact: self.episode.contact,
             start: time,
-            end: None,
             approach_velocity,
-            separation_velocity: 0.0,
             peak_force: pushed,
             peak_time: time,
             peak_penetration: self.penetration,
-            impulse: 0.0,
-            dissipated_energy: 0.0,
+            ..Episode::default()
         };
     }
 

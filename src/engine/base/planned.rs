@@ -4,6 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::excitation::inputs::Inputs;
+use crate::numerics::roots;
 
 /// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,16 +68,50 @@ impl Planned {
         }
     }
 
-    /// Plans a step of length 0: the event is at the base.
-    pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
-        self.event = Some(event);
-        self.reaches_limit = false;
-        self.length = 0.0;
-        self.next_length = None;
+    /// Plans a step of a length, s, with forces: no pair has been tracked over it so far.
+    pub(crate) fn plan(&mut self, length: f64, event: Option<Event>, reaches_limit: bool, next_length: Option<f64>) {
+        (self.length, self.event, self.reaches_limit, self.next_length) = (length, event, reaches_limit, next_length);
         self.tracked.fill(None);
         self.ends.clear();
+    }
+
+    /// Plans a step of length 0: the event is at the base.
+    pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
+        self.plan(0.0, Some(event), false, None);
         self.q.copy_from_slice(&base.q);
         self.v.copy_from_slice(&base.v);
+    }
+}
+
+/// The first event of a step, or of a part of one, as far as it has been searched for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct First {
+    /// x of the event; where none has been found, that of the end.
+    pub until: f64,
+    pub event: Option<Event>,
+}
+
+impl First {
+    /// None so far, in a part that ends at x.
+    pub(crate) fn up_to(end: f64) -> First {
+        First { until: end, event: None }
+    }
+
+    /// Notes an event that is earlier, at x.
+    pub(crate) fn set(&mut self, x: f64, event: Event) {
+        (self.until, self.event) = (x, Some(event));
+    }
+
+    /// Looks for an event where a polynomial passes 0 upwards by more than the rounding error of its coefficients.
+    pub(crate) fn search(&mut self, terms: &mut [f64], noise: f64, event: Event) {
+        if let Some(x) = roots::first_upcrossing(terms, self.until, noise) {
+            self.set(x, event);
+        }
+    }
+
+    /// (x, event), if there is one.
+    pub(crate) fn found(self) -> Option<(f64, Event)> {
+        self.event.map(|event| (self.until, event))
     }
 }
 

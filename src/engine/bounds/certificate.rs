@@ -5,7 +5,7 @@
 //! Apart from contact |y''''| is bounded by an energy of the motion ([`Structure::fourth_derivative_bound`]), in a
 //! power series by the sum of its terms ([`crate::structure::MotionSeries::bound_fourths`]).
 
-use crate::numerics::roots::highest_of_cubic;
+use crate::numerics::roots::{deviation, highest_of_cubic};
 use crate::structure::{Scratch, Structure};
 
 /// Coefficients of the bound on all rows of some; constant during a run.
@@ -37,12 +37,6 @@ impl Certificate {
     ) -> f64 {
         deviation(h, structure.fourth_derivative_bound(motion, loads, &self.weight, scratch))
     }
-}
-
-/// Bound on the distance of a function from its cubic over 0..=h, where its fourth derivative is at most `fourth`.
-#[inline(always)]
-pub fn deviation(h: f64, fourth: f64) -> f64 {
-    (h * h) * (h * h) / 384.0 * fourth
 }
 
 /// Whether a quantity stays below 0 for `h` seconds, from a value and rate to others, if it is off its cubic by at most

@@ -2,14 +2,14 @@
 //! and the bound on its error, h^4/384 max|y''''| \[BirkhoffPriver1967\].
 
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
-use crate::engine::quantities::rows::{Block, values_of};
+use crate::engine::quantities::rows::{Block, sums_of, values_of};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
 /// The quantities of a block over a flight.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub struct Course {
     /// Values and slopes at the start.
     pub start: [Lane; 2],
@@ -28,41 +28,14 @@ pub fn course_of(
 ) -> Course {
     let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
     let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
-    let [first, last] = [&bounds.first, &bounds.last].map(|vector| &vector[modes.clone()]);
-    let factors = [&bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
-    let mut course = sum_course(block, [rate, first, end_rate, last], factors);
-    [course.start[0], course.end[0]] = known_ends.unwrap_or_else(|| {
+    let [first, last, slow, quick] =
+        [&bounds.first, &bounds.last, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
+    let [start, end] = known_ends.unwrap_or_else(|| {
         let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
         ends.map(|values| each(|i| values[i] + at_rest[i]))
     });
-    course
-}
-
-/// Their slopes alone, from the modes' v and accelerations at both ends, and the bounds on their fourth derivatives.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> Course {
-    let count = block.on_q.len();
-    // Equal lengths: no bounds checks below.
-    let [v, a, end_v, end_a] = ends.map(|vector| &vector[..count]);
-    let (slow, quick) = (&slow[..count], &quick[..count]);
-    let mut course = Course::default();
-    let Course { start: [_, rate], end: [_, end_rate], fourth } = &mut course;
-    for m in 0..count {
-        let row = &block.on_q[m];
-        for i in 0..LANES {
-            rate[i] += row[i] * v[m];
-            end_rate[i] += row[i] * end_v[m];
-            fourth[i] += row[i].abs() * slow[m];
-        }
-    }
-    for (m, row) in block.on_v.iter().enumerate().take(count) {
-        for i in 0..LANES {
-            rate[i] += row[i] * a[m];
-            end_rate[i] += row[i] * end_a[m];
-            fourth[i] += row[i].abs() * quick[m];
-        }
-    }
-    course
+    let [slope, end_slope, fourth] = sums_of(block, [(rate, first), (end_rate, last)], (slow, quick));
+    Course { start: [start, slope], end: [end, end_slope], fourth }
 }
 
 impl Course {

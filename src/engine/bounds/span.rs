@@ -76,7 +76,9 @@ impl<const N: usize> Span<N> {
             let last = load.acceleration + load.slope * load.length;
             (ground[0][t], ground[1][t], slopes[t]) = (load.acceleration, last, load.slope);
             longest = larger(longest, load.length);
-            jumps |= load.length == 0.0 || is_jump(before, load.acceleration);
+            // By more than rounding.
+            let is_jump = (before - load.acceleration).abs() > JUMP * (before.abs() + load.acceleration.abs());
+            jumps |= load.length == 0.0 || is_jump;
             before = last;
         }
         let strongest = ground.map(|all| largest(&all.map(f64::abs)));
@@ -401,9 +403,4 @@ fn highest_of_pushed<const N: usize>(values: &[[f64; N]; LANES], [starts, ends]:
         }
     }
     highest
-}
-
-/// Whether the ground's acceleration jumps between two flights by more than rounding.
-fn is_jump(before: f64, after: f64) -> bool {
-    (before - after).abs() > JUMP * (before.abs() + after.abs())
 }

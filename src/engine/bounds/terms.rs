@@ -5,9 +5,9 @@
 //! bounded, and both ends tell as they do in a flight ([`PenetrationBounds`], [`super::certificate`]).
 
 use crate::contact::taylor::{Each, PAIRS};
-use crate::engine::bounds::certificate::deviation;
 use crate::numerics::polynomial::{MAX_TERMS, each};
 use crate::numerics::powers::Powers;
+use crate::numerics::roots::deviation;
 use crate::structure::MotionSeries;
 
 /// How far the motion can get in a step, in the coordinates of its series.

@@ -55,13 +55,7 @@ impl GroundMotion {
     pub(crate) fn segment_at(&self, time: f64) -> Segment {
         let first = self.times.first().copied().unwrap_or(time);
         if time < first {
-            return Segment {
-                start: time,
-                length: self.spacing.min(first - time),
-                acceleration: 0.0,
-                slope: 0.0,
-                place: RecordPlace::Outside,
-            };
+            return Segment::at_rest(time, self.spacing.min(first - time), RecordPlace::Outside);
         }
         let sample = self.times.partition_point(|t| *t <= time) - 1;
         if sample < self.lengths.len() {
@@ -199,13 +193,7 @@ impl GroundMotion {
 
     #[inline(always)]
     fn after(&self, k: u64) -> Segment {
-        Segment {
-            start: self.start_after(k),
-            length: self.spacing,
-            acceleration: 0.0,
-            slope: 0.0,
-            place: RecordPlace::After(k),
-        }
+        Segment::at_rest(self.start_after(k), self.spacing, RecordPlace::After(k))
     }
 }
 

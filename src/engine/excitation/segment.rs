@@ -29,6 +29,11 @@ pub(crate) enum RecordPlace {
 }
 
 impl Segment {
+    /// A segment in which the ground stands still.
+    pub(crate) fn at_rest(start: f64, length: f64, place: RecordPlace) -> Segment {
+        Segment { start, length, acceleration: 0.0, slope: 0.0, place }
+    }
+
     /// A segment under an input.
     pub(crate) fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: RecordPlace::Outside }

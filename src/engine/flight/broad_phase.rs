@@ -23,8 +23,8 @@ impl BroadPhase {
     pub fn of(System { structure, pairs, storeys, together, .. }: &System, weight: &[f64]) -> BroadPhase {
         let rates = ModeRates::of(structure, weight);
         BroadPhase {
-            pairs: pairs.iter().map(|of| rates.gain(structure, of.in_flight(), of.share_of_ground())).collect(),
-            storeys: storeys.iter().map(|of| rates.gain(structure, of.in_flight(), of.share_of_ground())).collect(),
+            pairs: pairs.iter().map(|of| rates.gain(structure, of.in_flight(), of.row.share_of_ground)).collect(),
+            storeys: storeys.iter().map(|of| rates.gain(structure, of.in_flight(), of.row.share_of_ground)).collect(),
             together: together.largest_share(&rates.gains),
             rates,
         }

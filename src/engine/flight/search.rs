@@ -6,13 +6,12 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::{Event, Planned};
+use crate::engine::base::planned::{Event, First, Planned};
 use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::numerics::roots;
 use crate::structure::{EXACT, FreeRows, difference, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
@@ -92,25 +91,21 @@ impl Search<'_> {
     fn first_entry_by_rows(&mut self, rows: &FreeRows, planned: &mut Planned) {
         let Search { system, base, look, work, .. } = self;
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let mut first: Option<(f64, usize)> = None;
+        let mut first = First::up_to(planned.length / rows.length);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if look.is_free[p] {
                 continue;
             }
             let terms = &mut work.scalar[..FreeRows::TERMS];
             rows.enter(p, (&base.q, &base.v), ground, terms);
-            let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row, motion));
+            let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row.modes, motion));
             (terms[0], terms[1]) = (moved, moving * rows.length);
             let later: f64 = terms[2..].iter().map(|term| term.abs()).sum();
             let noise = contact.begin_flight(terms, rows.length, pair.noise(size + speed * rows.length + later));
-            let end = first.map_or(planned.length / rows.length, |(x, _)| x);
-            if let Some(x) = roots::first_upcrossing(terms, end, noise) {
-                first = Some((x, p));
-            }
+            first.search(terms, noise, Event::Entry(p));
         }
-        let Some((x, p)) = first else { return };
-        (planned.length, planned.reaches_limit) = (x * rows.length, false);
-        planned.event = Some(Event::Entry(p));
+        let Some((x, event)) = first.found() else { return };
+        (planned.length, planned.reaches_limit, planned.event) = (x * rows.length, false, Some(event));
         system.fly(base, planned.length, work, (&mut planned.q, &mut planned.v));
     }
 
@@ -137,7 +132,7 @@ impl Search<'_> {
         let order = (order + usize::from(system.structure.oscillators().is_some())).min(MAX_ORDER);
         let Look { from, q, v, load, is_free, .. } = &*look;
         work.series.expand_flight(flying, (q, v), (load, &work.slope), (length, order));
-        let mut first: Option<(f64, Event)> = None;
+        let mut first = First::up_to(1.0);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if is_free[p] {
                 continue;
@@ -149,17 +144,14 @@ impl Search<'_> {
             } else {
                 terms[0] -= base.rest.gaps[p];
             }
-            let end = first.map_or(1.0, |(x, _)| x);
-            if let Some(x) = roots::first_upcrossing(terms, end, noise) {
-                first = Some((x, Event::Entry(p)));
-            }
+            first.search(terms, noise, Event::Entry(p));
         }
         let is_start = *from == 0.0;
         for i in (0..system.storeys.len()).filter(|i| !is_free[system.pairs.len() + i]) {
             let expanded = ((&work.series, &ALL), None, is_start);
-            first = system.first_yield(base, i, expanded, first, 1.0).or(first);
+            system.first_yield(base, i, expanded, &mut first);
         }
-        first
+        first.found()
     }
 
     /// Whether both ends of a piece prove that no limit is reached in it; if so, the search moves on to its end.

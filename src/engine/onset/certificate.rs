@@ -4,7 +4,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::row::Row;
 use crate::engine::system::System;
 use crate::structure::sum_sizes;
 
@@ -25,13 +25,9 @@ impl System {
 
     /// Whether all closed pairs stay in contact, on the same branch, up to the x of the powers.
     fn stays_touching(&self, base: &Base, onset: &OnsetSeries) -> bool {
-        (0..onset.used).all(|b| {
-            let [moved, turned] = onset.blocks[b].bounds(&onset.powers);
-            onset.pairs_of(b).all(|(lane, p)| {
-                let room =
-                    MotionBounds { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
-                room.holds(&base.contacts[p])
-            })
+        onset.packed.all().all(|(block, members)| {
+            let [moved, turned] = block.bounds(&onset.powers);
+            members.lanes().all(|(lane, p)| base.contacts[p].cannot_change(onset, moved[lane], turned[lane]))
         })
     }
 
@@ -50,46 +46,34 @@ impl System {
         let are_elastic = self.elements(&base.storeys).all(|(of, (_, centre))| {
             let (drift, step_rate) = (of.drift(coordinates, &base.q), of.drift(coordinates, &base.v) * onset.scale);
             let stays = |sense: Sense| {
-                let moved = x * (sense.sign() * step_rate).max(0.0) + of.size(coordinates, sizes);
+                let moved = x * (sense.sign() * step_rate).max(0.0) + of.row.difference(coordinates, sizes).1;
                 of.excess(centre, sense, drift) + moved < 0.0
             };
             Sense::BOTH.into_iter().all(stays)
         });
         are_elastic
             && apart.all(|(p, contact)| {
-                let Pair { row, floors, .. } = &self.pairs[p];
+                let Row { modes, floors, .. } = &self.pairs[p].row;
                 let most = match base.coordinates {
                     Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
-                    Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
+                    Coordinates::Modes => modes.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
                 };
-                let stays =
-                    |moved| MotionBounds { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
+                let stays = |moved| contact.cannot_change(onset, moved, 0.0);
                 let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
                 stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
             })
     }
 }
 
-/// Bounds on the change of one penetration over 0..=x, beyond its terms of power 0 and 1.
-struct MotionBounds {
-    /// End of the step, in units of its scale.
-    x: f64,
-    /// Unit of time, s.
-    scale: f64,
-    /// Bound on the change of the penetration, m.
-    moved: f64,
-    /// Bound on the change of its derivative by x, m.
-    turned: f64,
-}
-
-impl MotionBounds {
-    /// Whether an entry, a release or a change of branch is impossible within 0..=x.
-    fn holds(&self, contact: &Contact) -> bool {
-        let &MotionBounds { x, scale, moved, turned } = self;
-        let d = contact.penetration;
-        let step_rate = contact.rate * scale;
-        if !contact.in_contact() {
-            let d = if contact.at_surface { 0.0 } else { d.min(0.0) };
+impl Contact {
+    /// Whether an entry, a release or a change of branch is impossible up to the x of the powers of a step: beyond its terms of
+    /// power 0 and 1 the penetration changes by `moved` at most, m, and its derivative by x by `turned`, m.
+    fn cannot_change(&self, onset: &OnsetSeries, moved: f64, turned: f64) -> bool {
+        let (x, scale) = (onset.powers.x, onset.scale);
+        let d = self.penetration;
+        let step_rate = self.rate * scale;
+        if !self.in_contact() {
+            let d = if self.at_surface { 0.0 } else { d.min(0.0) };
             return if d == 0.0 { step_rate * x + moved < 0.0 } else { d + x * step_rate.max(0.0) + moved < 0.0 };
         }
         if d <= 0.0 {
@@ -98,9 +82,9 @@ impl MotionBounds {
         }
         let inside = d + x * step_rate.min(0.0) - moved > 0.0;
         inside
-            && contact.force.guard.is_none_or(|guard| {
+            && self.force.guard.is_none_or(|guard| {
                 let change = guard.stiffness * (x * step_rate.abs() + moved) + guard.damping * turned / scale;
-                guard.value(d, contact.rate).abs() > change
+                guard.value(d, self.rate).abs() > change
             })
     }
 }

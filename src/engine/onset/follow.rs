@@ -22,8 +22,8 @@ impl Contact {
     /// work.
     pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
         let Some(grid) = &onset.grid else { return };
-        let ((block, lane), scale) = (onset.places[self.episode.contact], onset.scale);
-        let (block, reading) = (&onset.blocks[block], &onset.readings[block]);
+        let ((block, lane), scale) = (onset.packed.of(self.episode.contact), onset.scale);
+        let reading = &onset.readings[onset.packed.place(self.episode.contact).0];
         let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };
         let law = self.branch();
         let mut passage = Passage { impulse: end.impulse[lane] * scale, ..Passage::default() };

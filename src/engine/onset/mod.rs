@@ -34,27 +34,22 @@ pub fn plan(
     let Some((grid, scale)) = system.onset_grid(base, work, remaining) else { return false };
     onset.start(base, &system.pairs, grid, scale);
     let loads = (&work.load[..], &work.slope[..]);
-    match base.coordinates {
-        Coordinates::Floors => expand(onset, &system.structure, base.coordinates, loads, &FloorJacobian),
-        Coordinates::Modes => {
-            expand(onset, &system.structure, base.coordinates, loads, &ModalJacobian(&system.pairs));
-        }
+    let (structure, coordinates) = (&system.structure, base.coordinates);
+    match coordinates {
+        Coordinates::Floors => expand(onset, structure, coordinates, loads, &FloorJacobian),
+        Coordinates::Modes => expand(onset, structure, coordinates, loads, &ModalJacobian(&system.pairs)),
     }
-    let accurate = system.onset_reach(base, onset, &grid);
-    let reach = accurate.min(remaining / scale);
+    let reach = system.onset_reach(base, onset, &grid).min(remaining / scale);
     let Some(x) = system.certain_reach(base, onset, &mut work.node_q, reach) else {
         return false;
     };
     counters.contact_steps += 1;
     counters.law_evaluations += base.count_forces(Contact::branch);
-    planned.tracked.fill(None);
-    planned.ends.clear();
-    planned.event = None;
-    planned.reaches_limit = x * scale >= remaining;
-    planned.length = if planned.reaches_limit { remaining } else { x * scale };
-    onset.read(planned.length / scale);
-    onset.evaluate(planned.length / scale, &mut planned.q, &mut planned.v);
-    planned.next_length = Some(planned.length);
+    let reaches_limit = x * scale >= remaining;
+    let length = if reaches_limit { remaining } else { x * scale };
+    planned.plan(length, None, reaches_limit, Some(length));
+    onset.read(length / scale);
+    onset.evaluate(length / scale, &mut planned.q, &mut planned.v);
     true
 }
 
@@ -110,11 +105,6 @@ impl System {
 
 /// The time in which a power force stops a mass, s: k (V t)^n t = m V.
 fn turning_time(force: &Force, mass: f64, speed: f64) -> f64 {
-    let (stiffness, exponent) = match *force {
-        Force::None => return f64::INFINITY,
-        Force::Linear { stiffness, .. } => (stiffness, 1.0),
-        Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
-        Force::Root { stiffness, .. } => (stiffness, 1.5),
-    };
+    let (stiffness, exponent, _) = force.in_units_of(1.0);
     libm::pow(mass * libm::pow(speed, 1.0 - exponent) / stiffness, 1.0 / (exponent + 1.0))
 }

@@ -1,13 +1,12 @@
 //! The double power series of the motion and of all contacts after an entry: a series of Frobenius's kind
 //! \[Frobenius1873\] with the exponents i + beta j.
 
-use crate::contact::EpisodeForce;
 use crate::contact::onset::{Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products};
 use crate::contact::taylor::Kind;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::pairs::jacobian::ContactJacobian;
-use crate::engine::pairs::packing::{LanePlace, PackedPairs, most_blocks};
+use crate::engine::pairs::packing::PackedBlocks;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::structure::{LANES, Lane, Structure, sum_terms};
@@ -26,15 +25,8 @@ pub struct OnsetSeries {
     pub lanes: usize,
     /// Terms of the motion, m or modal: one vector for each exponent.
     pub terms: Vec<f64>,
-    /// The pairs in contact, in blocks of one kind of force each; the first `used` are filled. They are allocated for
-    /// all pairs, but memory that no contact has needed yet is not touched.
-    pub blocks: Vec<OnsetBlock>,
-    /// The pairs in each block.
-    pub members: Vec<PackedPairs>,
-    /// Number of blocks in use.
-    pub used: usize,
-    /// Block and lane of each contact.
-    pub places: Vec<(usize, usize)>,
+    /// The pairs in contact.
+    pub packed: PackedBlocks<OnsetBlock>,
     /// Unit of time, s: x is the time in this unit.
     pub scale: f64,
     /// Powers of the x at which the series was last evaluated.
@@ -46,25 +38,22 @@ pub struct OnsetSeries {
 impl OnsetSeries {
     /// Allocates for the largest grid of exponents; nothing if no law needs one.
     pub fn new(System { structure, pairs, contact_coordinates, .. }: &System) -> OnsetSeries {
-        if !has_singular_law(pairs) {
+        if !pairs.iter().any(Pair::has_power_law) {
             return OnsetSeries::default();
         }
         let (lanes, pairs, on_floors) = (structure.lanes, pairs.len(), *contact_coordinates == Coordinates::Floors);
         // Five kinds of force, with entering pairs or others, have at most one block each that is not full.
-        let most = most_blocks(pairs, 10, on_floors);
+        let packed = PackedBlocks::new(pairs, 10, on_floors);
         OnsetSeries {
             grid: None,
             products: [Products::room(), Products::room()],
             beta: 0.0,
             lanes,
             terms: vec![0.0; MOST_TERMS * lanes],
-            blocks: Vec::with_capacity(most),
-            members: vec![PackedPairs::default(); most],
-            used: 0,
-            places: vec![(0, 0); pairs],
             scale: 1.0,
             powers: GridPowers::default(),
-            readings: vec![OnsetReading::default(); most],
+            readings: vec![OnsetReading::default(); packed.most()],
+            packed,
         }
     }
 
@@ -80,7 +69,8 @@ impl OnsetSeries {
 
     /// Starts the series from the base; `scale` is the unit of time, s.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], grid: Grid, scale: f64) {
-        (self.grid, self.scale, self.used) = (Some(grid), scale, 0);
+        (self.grid, self.scale) = (Some(grid), scale);
+        self.packed.clear();
         if grid.beta != self.beta {
             self.beta = grid.beta;
             self.products[0].set(&grid, false);
@@ -94,42 +84,19 @@ impl OnsetSeries {
         }
         for (p, contact) in touching(base) {
             let force = contact.branch();
-            let place = LanePlace::of(&pairs[p], base.coordinates);
-            let (b, lane) = self.room_for(&grid, Kind::of(&force), contact.is_singular(), place);
-            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
-            self.members[b].set(lane, p, &pairs[p], base.coordinates);
-            self.places[p] = (b, lane);
+            let (kind, enters) = (Kind::of(&force), contact.is_singular());
+            let is_of = |block: &OnsetBlock| block.is_of(kind, enters);
+            let start = |block: &mut OnsetBlock| block.start(&grid, kind, enters);
+            let (block, _, lane) = self.packed.add((p, &pairs[p]), base.coordinates, is_of, start);
+            block.add(lane, &force, scale, contact.penetration, contact.rate * scale);
         }
-    }
-
-    /// Block and lane for a pair of a kind of force.
-    fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: LanePlace) -> (usize, usize) {
-        for b in (0..self.used).rev() {
-            if self.blocks[b].is_of(kind, enters)
-                && let Some(lane) = self.members[b].free_lane(place)
-            {
-                return (b, lane);
-            }
-        }
-        let b = self.used;
-        if b == self.blocks.len() {
-            self.blocks.push(OnsetBlock::default());
-        }
-        self.blocks[b].start(grid, kind, enters);
-        self.used += 1;
-        (b, self.members[b].start(place))
-    }
-
-    /// (lane, number of the pair) of each lane that holds a pair.
-    pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].lanes()
     }
 
     /// Evaluates all blocks at x.
     pub fn read(&mut self, x: f64) {
         let Some(grid) = &self.grid else { return };
         self.powers.set(grid, x);
-        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+        for (reading, (block, _)) in self.readings.iter_mut().zip(self.packed.all()) {
             *reading = block.read(&self.powers);
         }
     }
@@ -138,9 +105,9 @@ impl OnsetSeries {
     pub fn bound_forces(&self, contacts: &[Contact], x: f64, out: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
         for (p, out) in out.iter_mut().enumerate().filter(|(p, _)| contacts[*p].in_contact()) {
-            let (block, lane) = self.places[p];
+            let (block, lane) = self.packed.of(p);
             // The stored terms are those of the force times x.
-            let terms = self.blocks[block].copy_force(grid, lane).map(f64::abs);
+            let terms = block.copy_force(grid, lane).map(f64::abs);
             *out = grid.sum(&terms, x) / x;
         }
     }
@@ -160,11 +127,6 @@ impl OnsetSeries {
     }
 }
 
-/// Whether some law has a force without a power series at d = 0.
-fn has_singular_law(pairs: &[Pair]) -> bool {
-    pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
-}
-
 /// Expands all terms, row by row: u_(i+2) from the terms of force, load, damping and stiffness two powers of x below.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn expand<M: ContactJacobian>(
@@ -176,7 +138,7 @@ pub fn expand<M: ContactJacobian>(
 ) {
     let Some(grid) = onset.grid else { return };
     for j in 0..grid.rows {
-        for block in onset.blocks[..onset.used].iter_mut().filter(|block| block.enters) {
+        for block in onset.packed.all_mut().0.iter_mut().filter(|block| block.enters) {
             block.extend_entering_row(&grid, &onset.products[1], j);
         }
         let first = if j == 0 { 2 } else { 1 };
@@ -200,7 +162,7 @@ fn extend<M: ContactJacobian>(
     let (lanes, scale) = (onset.lanes, onset.scale);
     let here = grid.index(i, j);
     let exponent = grid.exponent(i, j);
-    let blocks = &mut onset.blocks[..onset.used];
+    let (blocks, members) = onset.packed.all_mut();
     let (known, rest) = onset.terms.split_at_mut(here * lanes);
     let next = &mut rest[..lanes];
     if i >= 2 {
@@ -223,10 +185,10 @@ fn extend<M: ContactJacobian>(
         // There is no term x^(beta j) without a power of x.
         next.fill([0.0; LANES]);
     }
-    for (block, members) in blocks.iter().zip(&onset.members) {
+    for (block, members) in blocks.iter().zip(members) {
         jacobian.apply(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
     }
-    for (block, members) in blocks.iter_mut().zip(&onset.members) {
+    for (block, members) in blocks.iter_mut().zip(members) {
         let values = jacobian.relative(members, block.count, next);
         block.set_penetration(grid, i, j, values);
     }

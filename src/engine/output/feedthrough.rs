@@ -11,7 +11,7 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{ContactOutput, FoundationOutput, Output};
 use crate::engine::output::point::Point;
-use crate::engine::pairs::pair::relative;
+use crate::engine::pairs::row::relative;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::scene::Place;
@@ -113,13 +113,13 @@ impl Model {
         self.list_pressing(&state.base, point, &mut work);
         let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
         for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            *known = relative(&self.system.pairs[self.system.rigid.pairs[k]].floors, accelerations);
+            *known = relative(&self.system.pairs[self.system.rigid.pairs[k]].row.floors, accelerations);
         }
         rigid.solve();
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
             let p = self.system.rigid.pairs[k];
             response.reactions[p] = *reaction;
-            for floor in &self.system.pairs[p].floors {
+            for floor in &self.system.pairs[p].row.floors {
                 accelerations[floor.lane] += reaction * floor.push;
             }
         }

@@ -3,7 +3,8 @@
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::pairs::packing::PackedPairs;
-use crate::engine::pairs::pair::{Pair, apart, difference, relative};
+use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::row::{apart, difference, relative};
 use crate::numerics::polynomial::each;
 use crate::structure::{self, LANES, Lane};
 
@@ -71,7 +72,10 @@ impl ContactJacobian for FloorJacobian {
     fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
         let Some(blocks) = members.between else {
             let relative = self.relative(members, count, term);
-            FloorJacobian::push_floors(members, count, forces, term);
+            let term = term.as_flattened_mut();
+            for (floors, force) in members.floors.iter().zip(forces).take(count) {
+                floors.iter().for_each(|floor| term[floor.lane] += floor.push * force);
+            }
             return relative;
         };
         let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
@@ -79,18 +83,6 @@ impl ContactJacobian for FloorJacobian {
         *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
         *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
         each(|lane| was_left[lane] - was_right[lane])
-    }
-}
-
-impl FloorJacobian {
-    #[inline(always)]
-    fn push_floors(members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
-        let term = term.as_flattened_mut();
-        for (floors, force) in members.floors.iter().zip(forces).take(count) {
-            for floor in floors {
-                term[floor.lane] += floor.push * force;
-            }
-        }
     }
 }
 
@@ -129,7 +121,7 @@ pub(crate) struct ModalJacobian<'a>(pub &'a [Pair]);
 impl ModalJacobian<'_> {
     #[inline(always)]
     fn row(&self, pair: usize) -> &[Lane] {
-        self.0[pair].row.as_chunks::<LANES>().0
+        self.0[pair].row.modes.as_chunks::<LANES>().0
     }
 }
 
@@ -140,7 +132,7 @@ impl ContactJacobian for ModalJacobian<'_> {
     }
 
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| structure::difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
+        lane_by_lane(count, |lane| structure::difference(&self.0[members.pairs[lane]].row.modes, term.as_flattened()).0)
     }
 
     #[inline(always)]

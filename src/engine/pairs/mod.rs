@@ -5,3 +5,4 @@ pub(super) mod packing;
 pub(super) mod pair;
 pub(super) mod penetration;
 pub(super) mod rigid;
+pub(super) mod row;

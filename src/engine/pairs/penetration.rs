@@ -1,32 +1,6 @@
-//! The power series of one pair's penetration, and its rounding error.
+//! The power series of an open pair's penetration: its first terms, and its rounding error.
 
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
-use crate::engine::pairs::pair::Pair;
-use crate::structure::MotionSeries;
-
-impl Pair {
-    /// Writes the terms of a pair's relative motion to `out[n]`, as a series in time. Returns the sum of the magnitudes
-    /// of all that was added up, each term times its `factor`, m.
-    pub(crate) fn project(
-        &self,
-        coordinates: Coordinates,
-        series: &MotionSeries,
-        factors: &[f64],
-        out: &mut [f64],
-    ) -> f64 {
-        if coordinates == Coordinates::Modes {
-            return series.project(&self.row, factors, out);
-        }
-        let mut sum = 0.0;
-        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
-            let (value, size) = self.difference(coordinates, series.term(n));
-            *out = value;
-            sum += size * factor.abs();
-        }
-        sum
-    }
-}
 
 impl Contact {
     /// Replaces the first terms of an open pair's penetration by the contact's own numbers, which are more accurate;

@@ -6,7 +6,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::pairs::pair::FloorShare;
+use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
@@ -224,7 +224,7 @@ impl Model {
             let ends = larger(room.first_forces[p].abs(), room.last_forces[p].abs());
             let (strongest, pulls) = (larger(room.strongest[p], ends), pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
-            for FloorShare { lane, push, .. } in pair.floors {
+            for FloorShare { lane, push, .. } in pair.row.floors {
                 // Pushed to the left, which a pull does to the right; or the other way round.
                 let (by_push, by_pull) = (push * strongest, -push * pulled);
                 let [least, most] = if push < 0.0 { [by_push, by_pull] } else { [by_pull, by_push] };

@@ -58,7 +58,7 @@ impl Model {
     pub(in crate::engine) fn soften(&self, base: &Base, end: &[f64], out: &mut FloorState) {
         for (of, _) in self.system.storeys.iter().zip(&base.storeys).filter(|(_, storey)| storey.yields.is_some()) {
             let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
-            of.push_apart(Coordinates::Floors, force, &mut out.resisted);
+            of.row.push(Coordinates::Floors, force, &mut out.resisted);
             if let ElementOf::Storey(side, 0) = of.place {
                 out.shear[side as usize] -= force;
             }

@@ -133,7 +133,7 @@ impl Model {
         }
         let lane = self.system.structure.floors.lane(side as usize, floor);
         let closed = self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact());
-        let pushes = closed.flat_map(|(p, pair)| pair.floors.into_iter().map(move |share| (p, share)));
+        let pushes = closed.flat_map(|(p, pair)| pair.row.floors.into_iter().map(move |share| (p, share)));
         let pushed = pushes
             .filter(|(_, share)| share.lane == lane && share.push != 0.0)
             .map(|(p, share)| share.push * step.contact_at(&self.system, base, p, time, &powers).present_force());

@@ -49,8 +49,10 @@ impl Model {
         let Some(i) = number.filter(|i| base.storeys[*i].yields.is_some()) else { return 0.0 };
         let of = &self.system.storeys[i];
         match base.coordinates {
-            Coordinates::Modes => rows[0].iter_mut().zip(&of.row).for_each(|(entry, row)| *entry -= of.lost * row),
-            Coordinates::Floors => of.floors.iter().for_each(|floor| rows[0][floor.lane] -= of.lost * floor.weight),
+            Coordinates::Modes => {
+                rows[0].iter_mut().zip(&of.row.modes).for_each(|(entry, row)| *entry -= of.lost * row)
+            }
+            Coordinates::Floors => of.row.floors.iter().for_each(|floor| rows[0][floor.lane] -= of.lost * floor.weight),
         }
         of.lost * of.drift(base.coordinates, &base.q)
     }

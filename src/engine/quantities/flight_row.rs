@@ -32,7 +32,7 @@ pub(crate) enum FlightRow<'a> {
 }
 
 /// Displacements and velocities, or the coordinates of oscillators and their rates.
-type Motion<'a> = (&'a [f64], &'a [f64]);
+pub(crate) type Motion<'a> = (&'a [f64], &'a [f64]);
 
 impl OscillatorRows {
     /// Of a row over displacements of the modes; `None` where modes move in flights.

@@ -243,6 +243,35 @@ impl Block {
     }
 }
 
+/// Sums over modes of a block's rows times q and v at two instants, and of the magnitudes of its entries times bounds.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn sums_of(
+    block: &Block,
+    [(q, v), (end_q, end_v)]: [(&[f64], &[f64]); 2],
+    (of_q, of_v): (&[f64], &[f64]),
+) -> [Lane; 3] {
+    let count = block.on_q.len();
+    // Equal lengths: no bounds checks below.
+    let [q, v, end_q, end_v, of_q, of_v] = [q, v, end_q, end_v, of_q, of_v].map(|vector| &vector[..count]);
+    let (mut start, mut end, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for m in 0..count {
+        let row = &block.on_q[m];
+        for i in 0..LANES {
+            start[i] += row[i] * q[m];
+            end[i] += row[i] * end_q[m];
+            size[i] += row[i].abs() * of_q[m];
+        }
+    }
+    for (m, row) in block.on_v.iter().enumerate().take(count) {
+        for i in 0..LANES {
+            start[i] += row[i] * v[m];
+            end[i] += row[i] * end_v[m];
+            size[i] += row[i].abs() * of_v[m];
+        }
+    }
+    [start, end, size]
+}
+
 /// The values of a block.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {

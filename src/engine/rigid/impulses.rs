@@ -45,7 +45,7 @@ impl System {
     /// (rate, noise): the approach velocity of a rigid pair and its rounding error, m/s.
     fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
         let contact = &base.contacts[p];
-        let (rate, size) = self.pairs[p].difference(base.coordinates, &base.v);
+        let (rate, size) = self.pairs[p].row.difference(base.coordinates, &base.v);
         let rate = if contact.tracked || contact.is_held() { contact.rate } else { rate };
         (rate, STILL * size)
     }
@@ -75,8 +75,7 @@ impl System {
                 Some(i) if base.contacts[p].is_held() => base.contacts[p].pass_on(rigid.found[i]),
                 Some(i) => self.book_impulse(base, p, rigid.known[i], rigid.found[i], on_episode),
                 None => {
-                    let change = |(&other, impulse): (&usize, &f64)| self.rigid.matrix[(k, other)] * impulse;
-                    let change: f64 = rigid.pairs.iter().zip(&rigid.found).map(change).sum();
+                    let change = self.change_of_rate(rigid, k);
                     let contact = &mut base.contacts[p];
                     contact.rate -= change;
                     if contact.is_held() && change > 0.0 {
@@ -93,7 +92,7 @@ impl System {
     fn turn_storeys(&self, base: &mut Base) {
         let velocities = &base.v;
         for (of, storey) in self.storeys.iter().zip(&mut base.storeys) {
-            let goes_back = |sense: &Sense| sense.sign() * of.beyond_rounding(base.coordinates, velocities) < 0.0;
+            let goes_back = |sense: &Sense| sense.sign() * of.row.difference(base.coordinates, velocities).0 < 0.0;
             if storey.yields.as_ref().is_some_and(goes_back) {
                 storey.yields = None;
             }
@@ -105,17 +104,13 @@ impl System {
     /// without restitution; returns whether there are any.
     fn close_squeezed(&self, base: &Base, rigid: &mut Complementarity) -> bool {
         let touches = |p: usize| {
-            let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-            let noise = pair.noise(pair.difference(base.coordinates, &base.q).1);
-            contact.tracked && contact.penetration >= -noise
-        };
-        let change = |k: usize| -> f64 {
-            rigid.pairs.iter().zip(&rigid.found).map(|(&other, impulse)| self.rigid.matrix[(k, other)] * impulse).sum()
+            let contact = &base.contacts[p];
+            contact.tracked && contact.penetration >= -self.noise_now(base, p)
         };
         let is_closed_by_others = |k: usize| {
             let p = self.rigid.pairs[k];
             let (rate, still) = self.approach(base, p);
-            rate < 0.0 && rate - change(k) > still && touches(p)
+            rate < 0.0 && rate - self.change_of_rate(rigid, k) > still && touches(p)
         };
         let count = self.rigid.pairs.len();
         if !(0..count).any(|k| !rigid.pairs.contains(&k) && is_closed_by_others(k)) {
@@ -129,10 +124,20 @@ impl System {
         true
     }
 
+    /// What the impulses found take from the rate of rigid pair `k`, m/s.
+    fn change_of_rate(&self, rigid: &Complementarity, k: usize) -> f64 {
+        rigid.pairs.iter().zip(&rigid.found).map(|(&other, impulse)| self.rigid.matrix[(k, other)] * impulse).sum()
+    }
+
+    /// Rounding error of a penetration now, m.
+    fn noise_now(&self, base: &Base, p: usize) -> f64 {
+        self.pairs[p].noise(self.pairs[p].row.difference(base.coordinates, &base.q).1)
+    }
+
     /// Whether the floors of a rigid pair touch now.
     fn is_closed(&self, base: &Base, p: usize) -> bool {
-        let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-        let noise = if contact.tracked { 0.0 } else { pair.noise(pair.difference(base.coordinates, &base.q).1) };
+        let contact = &base.contacts[p];
+        let noise = if contact.tracked { 0.0 } else { self.noise_now(base, p) };
         contact.is_held() || contact.at_surface || contact.penetration >= -noise
     }
 
@@ -182,7 +187,7 @@ impl System {
     /// Updates the rates of the soft pairs: an impulse changes that of every pair with a common floor at once.
     fn update_soft_rates(&self, base: &mut Base) {
         for (p, contact) in base.contacts.iter_mut().enumerate().filter(|&(p, _)| !self.pairs[p].law.is_rigid()) {
-            contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0;
+            contact.rate = self.pairs[p].row.difference(base.coordinates, &base.v).0;
             let engaged = contact.force.is_engaged(contact.penetration, contact.rate);
             if contact.in_contact() && engaged != (contact.phase == Phase::Engaged) {
                 contact.change_branch();

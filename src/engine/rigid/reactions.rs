@@ -1,7 +1,7 @@
 //! Reactions between rigid floors that are held together: they keep the relative acceleration 0 until one would be
 //! negative.
 
-use crate::engine::base::{Base, touching};
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -17,13 +17,9 @@ impl System {
         let gaps = &base.rest.gaps;
         self.select_held(base, work);
         for (motion, is_displacement) in [(&mut base.q, true), (&mut base.v, false)] {
-            let rigid = &mut work.rigid;
-            for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-                let p = self.rigid.pairs[k];
-                *known = dot(&self.pairs[p].row, motion) - if is_displacement { gaps[p] } else { 0.0 };
-            }
-            rigid.solve();
-            self.push_apart(rigid, motion);
+            let gap = |p: usize| if is_displacement { gaps[p] } else { 0.0 };
+            self.solve_for(&mut work.rigid, |p| dot(&self.pairs[p].row.modes, motion) - gap(p));
+            self.push_apart(&work.rigid, motion);
         }
     }
 
@@ -47,7 +43,7 @@ impl System {
     /// segment, which matters where the ground has a share in a contact.
     pub(crate) fn solve_present_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) {
         self.load(base, inputs, &mut work.load, &mut work.slope);
-        let has_ground = |p: &usize| self.pairs[*p].share_of_ground() != 0.0;
+        let has_ground = |p: &usize| self.pairs[*p].row.share_of_ground != 0.0;
         if self.ground.is_none() && self.rigid.pairs.iter().any(has_ground) {
             let change = inputs.ground_acceleration.at(base.time()) - base.segment.acceleration_at(base.elapsed);
             for (load, share) in work.load.iter_mut().zip(self.participation(base.coordinates)) {
@@ -68,14 +64,14 @@ impl System {
         let Buffers { rigid, q: acceleration, .. } = work;
         rigid.clear();
         for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
-            let (pressing, size) = difference(&self.pairs[p].row, acceleration);
+            let (pressing, size) = difference(&self.pairs[p].row.modes, acceleration);
             rigid.add(k, pressing, 8.0 * f64::EPSILON * size);
         }
         rigid.push(&self.rigid.matrix);
         self.push_apart(rigid, acceleration);
         let apart = (0..rigid.pairs.len()).find(|&i| {
             let p = self.rigid.pairs[rigid.pairs[i]];
-            let moves_apart = dot(&self.pairs[p].row, acceleration) < -rigid.noise[i];
+            let moves_apart = dot(&self.pairs[p].row.modes, acceleration) < -rigid.noise[i];
             rigid.found[i] == 0.0 && moves_apart && !base.contacts[p].undecided
         })?;
         Some(self.rigid.pairs[rigid.pairs[apart]])
@@ -87,11 +83,15 @@ impl System {
         if rigid.pairs.is_empty() {
             return;
         }
-        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            *known = difference(&self.pairs[self.rigid.pairs[k]].row, acceleration).0;
-        }
-        rigid.solve();
+        self.solve_for(rigid, |p| difference(&self.pairs[p].row.modes, acceleration).0);
         self.push_apart(rigid, acceleration);
+    }
+
+    /// Solves for the pairs in `rigid` that are active, from the known number of each.
+    fn solve_for(&self, rigid: &mut Complementarity, of: impl Fn(usize) -> f64) {
+        let known = rigid.pairs.iter().zip(&mut rigid.known);
+        known.for_each(|(&k, known)| *known = of(self.rigid.pairs[k]));
+        rigid.solve();
     }
 
     /// Whether the pairs in `rigid`, which are held together, hold the drift of storey `i` as well, so that it does not move
@@ -101,11 +101,8 @@ impl System {
         if rigid.pairs.is_empty() {
             return false;
         }
-        let row = &self.storeys[i].row;
-        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            *known = dot(&self.pairs[self.rigid.pairs[k]].row, row);
-        }
-        rigid.solve();
+        let row = &self.storeys[i].row.modes;
+        self.solve_for(rigid, |p| dot(&self.pairs[p].row.modes, row));
         let whole = dot(row, row);
         let made_of_theirs: f64 = rigid.found.iter().zip(&rigid.known).map(|(share, known)| share * known).sum();
         whole - made_of_theirs <= LEFT * whole
@@ -115,9 +112,7 @@ impl System {
     /// `rigid.found`.
     pub(crate) fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
         for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
-            for (modal, row) in modal.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
-                *modal -= row * found;
-            }
+            self.pairs[self.rigid.pairs[k]].row.push(Coordinates::Modes, -found, modal);
         }
     }
 }

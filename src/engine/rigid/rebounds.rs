@@ -25,7 +25,7 @@ impl System {
         let bounce = |(contact, pair): (&Contact, &Pair)| {
             // Not `dot`: for floors that have just been let go, hardly apart yet, a relative acceleration by rounding is a
             // rebound after a time that no clock resolves, and none in the series of their penetration.
-            let towards = difference(&pair.row, acceleration).0;
+            let towards = difference(&pair.row.modes, acceleration).0;
             4.0 * time_to_surface(contact.penetration, contact.rate, towards)
         };
         apart.map(bounce).fold(f64::INFINITY, f64::min)
@@ -74,7 +74,7 @@ impl System {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             tracked[p] = contact.tracked.then(|| {
                 let terms = &mut scalar[..=series.order];
-                let noise = pair.noise(pair.project(base.coordinates, series, powers.in_time().0, terms));
+                let noise = pair.noise(pair.row.project(base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
                 let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
@@ -84,7 +84,7 @@ impl System {
 
     /// Whether a rigid pair at this penetration, m, is to be tracked.
     pub(crate) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
-        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
+        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].row.difference(coordinates, q).1)
     }
 }
 

@@ -20,12 +20,9 @@ impl System {
     /// Force with which a link pushes its ends apart, N, from how far and how fast they have come nearer, m and m/s.
     pub fn link_force(&self, storeys: &[Storey], l: usize, (closing, rate): (f64, f64)) -> f64 {
         let link = &self.structure.links[l];
-        link.stiffness * closing + link.dashpot * rate - self.slack_of_link(storeys, l)
-    }
-
-    /// What a link has lost of the force of its spring by slipping, N.
-    fn slack_of_link(&self, storeys: &[Storey], l: usize) -> f64 {
-        self.number_of_link(l).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
+        // What its spring has lost by slipping.
+        let slack = self.number_of_link(l).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic);
+        link.stiffness * closing + link.dashpot * rate - slack
     }
 
     /// Power that the dashpot of a link takes, W, from how fast its ends come nearer.

@@ -9,6 +9,7 @@ pub mod tolerance;
 pub mod yields;
 
 use crate::collocation::MOST_PAIRS;
+use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -85,13 +86,13 @@ impl System {
         // The search for peaks reads a window many times, by exact flights of all modes where these are many.
         let is_read_seldom = !scene.floor_forces && !scene.peaks;
         let impulse_response = impulse_response(&structure, &pairs, ground.as_ref().filter(|_| is_read_seldom));
-        let rows = || pairs.iter().map(|pair| &pair.row[..]);
+        let rows = || pairs.iter().map(|pair| &pair.row.modes[..]);
         let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
         let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
         let storeys = Element::all(scene, &structure);
         let floors = initial_floors(scene, &structure);
         let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(&floors)).collect();
-        let mut initial = initial_state(scene, &structure);
+        let mut initial = floors.map(|motion| of_modes(&motion, &structure));
         for (of, storey) in storeys.iter().zip(&initial_storeys) {
             of.lift(Coordinates::Modes, -storey.plastic, &mut initial[0]);
         }
@@ -222,7 +223,7 @@ impl System {
 
     /// Adds forces on all floors, N, or on none.
     pub fn add_forces(&self, mut forces: impl Iterator<Item = f64>, coordinates: Coordinates, load: &mut [f64]) {
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             let of_side = forces.by_ref().take(self.structure.floors(side)).enumerate();
             let acting = of_side.filter(|(_, force)| *force != 0.0);
             match coordinates {
@@ -257,11 +258,7 @@ impl System {
 
     /// Adds a contact force of pair `p`, N, positive in compression, to a load per unit of mass.
     pub fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
-        let Pair { row, floors, .. } = &self.pairs[p];
-        match coordinates {
-            Coordinates::Modes => load.iter_mut().zip(row).for_each(|(load, row)| *load -= row * force),
-            Coordinates::Floors => floors.iter().for_each(|floor| load[floor.lane] += force * floor.push),
-        }
+        self.pairs[p].row.push(coordinates, -force, load);
     }
 
     /// Makes the motion of the base one of modes or floors, for steps with forces; `room` are scratch vectors of the same
@@ -334,7 +331,7 @@ fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&Groun
     }
     // Where a law changes with the sense of the motion, no bound shows which one acts in buildings that lean; and where
     // floors touch from the start, some differ by less than the rounding of a sum over all modes.
-    let is_fit = |pair: &Pair| pair.has_one_power_law() && pair.gap > 0.0;
+    let is_fit = |pair: &Pair| matches!(pair.force(), Force::Power { .. }) && pair.gap > 0.0;
     let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(is_fit);
     let is_for_many_modes = are_few && structure.lanes > MANY_MODES && !cfg!(without = "windows");
     let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
@@ -356,20 +353,20 @@ fn contact_coordinates(structure: &Structure, has_windows: bool) -> Coordinates 
     }
 }
 
-fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
-    let mut state = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
-    for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
-        structure.add_modal(side, &building.initial_displacement, &mut state[0]);
-        structure.add_modal(side, &building.initial_velocity, &mut state[1]);
+/// A motion of all floors as one of modes.
+fn of_modes(motion: &[f64], structure: &Structure) -> Vec<f64> {
+    let mut modal = vec![0.0; structure.lanes];
+    for side in Side::BOTH {
+        structure.add_modal(side, &motion[structure.floors.lanes_of(side as usize)], &mut modal);
     }
-    state
+    modal
 }
 
 /// Displacements and velocities of all floors at the start.
 fn initial_floors(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
     let mut motion = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
-    for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
-        let lanes = structure.floors.lanes_of(side as usize);
+    for side in Side::BOTH {
+        let (building, lanes) = (scene.building(side), structure.floors.lanes_of(side as usize));
         motion[0][lanes.clone()].copy_from_slice(&building.initial_displacement);
         motion[1][lanes].copy_from_slice(&building.initial_velocity);
     }

@@ -38,7 +38,7 @@ impl System {
     /// velocities) since they began to.
     pub fn yield_to(&self, coordinates: Coordinates, storeys: &[Storey], motion: &[f64], accelerations: &mut [f64]) {
         for (of, _) in self.storeys.iter().zip(storeys).filter(|(_, storey)| storey.yields.is_some()) {
-            of.push_apart(coordinates, of.lost * of.drift(coordinates, motion), accelerations);
+            of.row.push(coordinates, of.lost * of.drift(coordinates, motion), accelerations);
         }
     }
 
@@ -78,7 +78,7 @@ impl System {
     pub fn leaning(&self) -> impl Iterator<Item = ((Side, usize), f64)> {
         let of =
             |side: Side| self.gravity[side as usize].iter().enumerate().map(move |(storey, g)| ((side, storey), *g));
-        [Side::Left, Side::Right].into_iter().flat_map(of).filter(|(_, g)| *g != 0.0)
+        Side::BOTH.into_iter().flat_map(of).filter(|(_, g)| *g != 0.0)
     }
 
     /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g lean^2.

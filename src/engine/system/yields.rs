@@ -1,11 +1,10 @@
 //! The first instant at which an elastic storey yields, by a power series of the motion.
 
 use crate::engine::base::Base;
-use crate::engine::base::planned::Event;
+use crate::engine::base::planned::{Event, First};
 use crate::engine::base::storey::Sense;
 use crate::engine::system::System;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
-use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
 
@@ -28,7 +27,7 @@ impl System {
         drift[2] = if drift[2].abs() <= rounding { 0.0 } else { drift[2] };
     }
 
-    /// The first yield of storey `i` in a series, before the first event known so far or x = `end`, as (x, event).
+    /// Looks for the first yield of storey `i` in a series, if before the first event known so far.
     ///
     /// `factors` are those of the terms at the end, for their rounding errors; `is_start` says whether the series begins at
     /// the base: there a storey whose drift has just turned is exactly at its limit, with the rate 0.
@@ -37,25 +36,23 @@ impl System {
         base: &Base,
         i: usize,
         ((series, factors), substitution, is_start): Expanded,
-        first: Option<(f64, Event)>,
-        end: f64,
-    ) -> Option<(f64, Event)> {
+        first: &mut First,
+    ) {
         let (of, (storey, centre)) = self.element(i, &base.storeys);
         let mut drift = [0.0; MAX_TERMS];
         let size = match base.oscillates {
             true => of.in_flight().project(series, factors, &mut drift),
-            false => of.project(base.coordinates, series, factors, &mut drift),
+            false => of.row.project(base.coordinates, series, factors, &mut drift),
         };
         let noise = of.noise(centre, size);
         let count = series.order + 1;
         if is_start && storey.turned.is_some() {
             let rate_and_size = match base.oscillates {
                 true => (self.structure.in_flight().fastest, of.in_flight().size_at_start(series)),
-                false => (self.structure.fastest, of.size(base.coordinates, series.term(0))),
+                false => (self.structure.fastest, of.row.difference(base.coordinates, series.term(0)).1),
             };
             self.clear_curvature(rate_and_size, i, series, &mut drift);
         }
-        let mut found = None;
         for sense in Sense::BOTH {
             let mut terms = drift.map(|term| sense.sign() * term);
             terms[0] = of.excess(centre, sense, drift[0]).min(0.0);
@@ -65,11 +62,7 @@ impl System {
             if let Some(substitution) = substitution.filter(|_| series.time_map.is_curved()) {
                 substitution.apply_to_one(&mut terms[..count]);
             }
-            let until = found.or(first).map_or(end, |(x, _)| x);
-            found = roots::first_upcrossing(&mut terms[..count], until, noise)
-                .map(|x| (x, Event::Yield(i, sense)))
-                .or(found);
+            first.search(&mut terms[..count], noise, Event::Yield(i, sense));
         }
-        found
     }
 }

@@ -3,7 +3,6 @@
 use crate::contact::taylor::{Kind, PairBlock};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::pairs::packing::LanePlace;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 
@@ -18,7 +17,7 @@ impl ClosedPairs {
 
     /// Assigns a block and a lane to each closed pair.
     fn assign(&mut self, base: &Base, pairs: &[Pair]) {
-        self.used = 0;
+        self.packed.clear();
         self.assigned.clear();
         self.coordinates = base.coordinates;
         let has_roots = closed(base).any(|(_, contact)| Kind::of(&contact.starting_force()) == Kind::Root);
@@ -27,10 +26,10 @@ impl ClosedPairs {
             let kind = Kind::of(&force);
             // A root law without damping includes an undamped power law of the same exponent: so both share a block.
             let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
-            let (b, lane) = self.room_for(joint, LanePlace::of(&pairs[p], base.coordinates));
-            self.members[b].set(lane, p, &pairs[p], base.coordinates);
-            self.blocks[b].count = self.blocks[b].count.max(lane + 1);
-            self.places[p] = (b, lane);
+            let (is_of, start) =
+                (|block: &PairBlock| block.kind() == joint, |block: &mut PairBlock| block.start(joint));
+            let (block, _, lane) = self.packed.add((p, &pairs[p]), base.coordinates, is_of, start);
+            block.count = block.count.max(lane + 1);
             self.assigned.push((p, kind));
         }
     }
@@ -45,31 +44,13 @@ impl ClosedPairs {
             if assigned.next() != Some(&(p, Kind::of(&force))) {
                 return false;
             }
-            let (b, lane) = self.places[p];
-            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            let (b, lane) = self.packed.place(p);
+            self.packed.block(b).add(lane, &force, scale, contact.penetration, contact.rate * scale);
             let at_surface = contact.at_surface && contact.rate == 0.0;
             self.at_surface[b] |= at_surface;
             self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
-    }
-
-    /// Block and lane for a pair of a kind of force: a free lane, of the newest block if possible, or a new block.
-    fn room_for(&mut self, kind: Kind, place: LanePlace) -> (usize, usize) {
-        for b in (0..self.used).rev() {
-            if self.blocks[b].kind() == kind
-                && let Some(lane) = self.members[b].free_lane(place)
-            {
-                return (b, lane);
-            }
-        }
-        let b = self.used;
-        if b == self.blocks.len() {
-            self.blocks.push(PairBlock::default());
-        }
-        self.blocks[b].start(kind);
-        self.used += 1;
-        (b, self.members[b].start(place))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::contact::Force;
 use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::{Contact, Passage};
-use crate::engine::pairs::packing::{PackedPairs, most_blocks};
+use crate::engine::pairs::packing::{PackedBlocks, PackedPairs};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::{Powers, Reading};
@@ -15,11 +15,7 @@ use crate::structure::MotionSeries;
 /// The closed pairs, in blocks of one kind of force each.
 #[derive(Clone, Debug)]
 pub struct ClosedPairs {
-    /// The first `used` are filled. They are allocated for all pairs, but memory that no contact has needed yet is not
-    /// touched.
-    pub blocks: Vec<PairBlock>,
-    /// The pairs in each block.
-    pub members: Vec<PackedPairs>,
+    pub packed: PackedBlocks<PairBlock>,
     /// Each block's penetrations at the end of the step.
     pub readings: Vec<BlockReading>,
     /// Whether a pair of the block has just entered with a velocity of 0: where its floors move alike, its penetration
@@ -35,14 +31,7 @@ pub struct ClosedPairs {
     /// Whether a new power of the penetrations can be worked out only after that of all forces: pairs share a floor, or
     /// have just entered with a velocity of 0.
     pub waits: bool,
-    /// Number of blocks in use.
-    pub used: usize,
-    /// Block and lane of each contact.
-    pub places: Vec<(usize, usize)>,
 }
-
-/// Blocks of pairs, and the pairs in them.
-pub type Blocks<'a> = (&'a mut [PairBlock], &'a [PackedPairs]);
 
 /// A block at the end of a step.
 pub struct BlockEnd {
@@ -56,18 +45,15 @@ impl ClosedPairs {
     /// Allocates for these pairs.
     pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
         let pairs = all.len();
-        let most = most_blocks(pairs, 5, on_floors);
+        let packed = PackedBlocks::new(pairs, 5, on_floors);
         ClosedPairs {
-            blocks: Vec::with_capacity(most),
-            members: vec![PackedPairs::default(); most],
-            readings: vec![BlockReading::default(); most],
-            at_surface: vec![false; most],
+            readings: vec![BlockReading::default(); packed.most()],
+            at_surface: vec![false; packed.most()],
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| all[p].softness(&all[q]) != 0.0).collect()).collect(),
             assigned: Vec::with_capacity(pairs),
             coordinates: Coordinates::default(),
             waits: false,
-            used: 0,
-            places: vec![(0, 0); pairs],
+            packed,
         }
     }
 
@@ -78,25 +64,15 @@ impl ClosedPairs {
 
     /// Whether all pairs fit into one block and are under linear laws.
     pub fn are_linear(&self) -> bool {
-        self.used == 1 && self.blocks[0].kind() == Kind::Linear
-    }
-
-    /// All blocks with their pairs.
-    pub fn blocks(&mut self) -> Blocks<'_> {
-        (&mut self.blocks[..self.used], &self.members[..self.used])
-    }
-
-    /// Whether a new power of the penetrations can be worked out only after that of all forces (see the field).
-    pub fn waits(&self) -> bool {
-        self.waits
+        let mut blocks = self.packed.all().map(|(block, _)| block.kind());
+        blocks.next() == Some(Kind::Linear) && blocks.next().is_none()
     }
 
     /// Estimate of the first release of a pair under a power law, in units of the series' scale; infinite if not before
     /// `limit`.
     pub fn first_release(&self, limit: f64) -> f64 {
         let mut first = f64::INFINITY;
-        let blocks = self.blocks[..self.used].iter().zip(&self.members);
-        for (block, members) in blocks.filter(|(block, _)| block.has_roots()) {
+        for (block, members) in self.packed.all().filter(|(block, _)| block.has_roots()) {
             let releases = block.releases(limit);
             first = members.lanes().fold(first, |first, (lane, _)| first.min(releases[lane]));
         }
@@ -106,53 +82,33 @@ impl ClosedPairs {
     /// Whether any pair is released by x, judged by the first three terms of its penetration.
     pub fn are_some_nearly_released(&self, x: f64) -> bool {
         let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
-        let mut blocks = self.blocks[..self.used].iter().zip(&self.members);
-        blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
+        self.packed
+            .all()
+            .any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
     /// Changes the variable of all series to the x of a time map.
     pub fn substitute(&mut self, substitution: &Substitution) {
-        self.blocks[..self.used].iter_mut().for_each(|block| block.substitute(substitution));
-    }
-
-    /// Number of blocks in use.
-    pub fn len(&self) -> usize {
-        self.used
-    }
-
-    /// Block and lane of a pair in contact.
-    pub fn of(&self, pair: usize) -> (&PairBlock, usize) {
-        let (block, lane) = self.places[pair];
-        (&self.blocks[block], lane)
-    }
-
-    /// (lane, number of the pair) of each lane that holds a pair.
-    pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].lanes()
+        self.packed.all_mut().0.iter_mut().for_each(|block| block.substitute(substitution));
     }
 
     /// Evaluates the penetrations at the end of the step.
     pub fn read(&mut self, end: &Powers) {
-        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+        for (reading, (block, _)) in self.readings.iter_mut().zip(self.packed.all()) {
             *reading = block.read(end);
         }
     }
 
-    /// Penetrations of a block at the end of the step.
-    pub fn reading(&self, block: usize) -> &BlockReading {
-        &self.readings[block]
-    }
-
     /// Extends the forces by power n, from the powers of the penetrations up to n.
     pub fn extend_forces(&mut self, n: usize) {
-        for block in &mut self.blocks[..self.used] {
+        for block in self.packed.all_mut().0 {
             block.extend_force(n);
         }
     }
 
     /// Calls `visit` with the number of each pair and power n of its force.
     pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
-        for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
+        for (block, members) in self.packed.all() {
             for (lane, pair) in members.lanes() {
                 visit(pair, block.force[n][lane]);
             }
@@ -162,8 +118,8 @@ impl ClosedPairs {
     /// Enters power n of the penetrations, block by block: `values` gets its pairs, the number of lanes that may hold
     /// pairs, and whether one of them may have just entered with a velocity of 0.
     pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&PackedPairs, usize, bool) -> Each) {
-        let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
-        for ((block, members), at_surface) in blocks.take(self.used) {
+        let (blocks, members) = self.packed.all_mut();
+        for ((block, members), at_surface) in blocks.iter_mut().zip(members).zip(&self.at_surface) {
             let values = values(members, block.count, *at_surface);
             block.set_penetration(n, values);
         }
@@ -183,23 +139,21 @@ impl ClosedPairs {
 
     /// Writes bounds on the magnitudes of the forces up to the x of the powers, N, one per contact.
     pub fn bound_forces(&self, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
-        for (b, block) in self.blocks[..self.used].iter().enumerate() {
+        for (block, members) in self.packed.all() {
             let depth = block.read(powers);
             let force = (!block.is_elastic()).then(|| block.read_force(powers));
-            for (lane, pair) in self.pairs_of(b) {
-                let highest = |terms: &[Each], end: (f64, f64), fourth: f64, sign: f64| {
+            for (lane, pair) in members.lanes() {
+                let highest = |terms: &[Each], end: Reading, sign: f64| {
                     let start = (sign * terms[0][lane], sign * terms[1][lane]);
-                    roots::upper_bound(start, (sign * end.0, sign * end.1), powers.x, fourth)
+                    roots::upper_bound(start, (sign * end.value, sign * end.slope), powers.x, end.fourth)
                 };
                 out[pair] = match &force {
                     None => {
-                        let end = (depth.penetration[lane], depth.slope[lane]);
-                        let deepest = highest(&block.penetration, end, depth.fourth[lane], 1.0);
+                        let deepest = highest(&block.penetration, depth.of(lane), 1.0);
                         contacts[pair].branch().value(deepest.max(0.0), 0.0)
                     }
                     Some(force) => {
-                        let force = force.of(lane);
-                        let of = |sign| highest(&block.force, (force.value, force.slope), force.fourth, sign);
+                        let of = |sign| highest(&block.force, force.of(lane), sign);
                         of(1.0).max(of(-1.0))
                     }
                 };
@@ -209,9 +163,9 @@ impl ClosedPairs {
 
     /// Moves the contacts to the end of the step, which began at the time `start`, s.
     pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
-        for (b, block) in self.blocks[..self.used].iter().enumerate() {
-            let end = BlockEnd::of(block, self.readings[b], powers);
-            for (lane, pair) in self.pairs_of(b) {
+        for ((block, members), reading) in self.packed.all().zip(&self.readings) {
+            let end = BlockEnd::of(block, *reading, powers);
+            for (lane, pair) in members.lanes() {
                 let contact = &mut contacts[pair];
                 let is_trusted = end.is_trusted((block, lane), &contact.branch(), series, powers.x);
                 contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
@@ -227,7 +181,7 @@ impl ClosedPairs {
         start: f64,
         (powers, whole): (&Powers, &Powers),
     ) {
-        let (block, lane) = self.of(contact.episode.contact);
+        let (block, lane) = self.packed.of(contact.episode.contact);
         let [end, last] = [powers, whole].map(|powers| BlockEnd::of(block, block.read(powers), powers));
         let is_trusted = last.is_trusted((block, lane), &contact.branch(), series, whole.x);
         contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
@@ -254,7 +208,7 @@ impl BlockEnd {
         if block.is_elastic() {
             return true;
         }
-        let by_law = law.value(self.motion.penetration[lane], self.motion.slope[lane] / series.time_rate(x));
+        let by_law = law.value(self.motion.value[lane], self.motion.slope[lane] / series.time_rate(x));
         (self.force.value[lane] - by_law).abs() <= TRUSTED * by_law
     }
 }
@@ -269,17 +223,10 @@ impl Contact {
         start: f64,
         x: f64,
     ) {
+        let depth = end.motion.of(lane);
         let work = match block.is_damped() {
-            true => {
-                let deepest = end.motion.penetration[lane];
-                block.damping_work(lane, &self.branch(), (&series.time_map, series.scale), x, deepest)
-            }
+            true => block.damping_work(lane, &self.branch(), (&series.time_map, series.scale), x, depth.value),
             false => 0.0,
-        };
-        let depth = Reading {
-            value: end.motion.penetration[lane],
-            slope: end.motion.slope[lane],
-            fourth: end.motion.fourth[lane],
         };
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);

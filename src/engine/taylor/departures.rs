@@ -5,7 +5,7 @@ use crate::contact::Guard;
 use crate::contact::taylor::BlockReading;
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
-use crate::engine::base::planned::Event;
+use crate::engine::base::planned::{Event, First};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
@@ -19,22 +19,19 @@ use crate::structure::{MotionSeries, difference};
 const ALIKE: f64 = 1e-12;
 
 impl System {
-    /// The first departure up to the end of the step's series, as (x, event).
-    pub fn first_leaving(&self, base: &Base, solution: &Solution, work: &mut Buffers) -> Option<(f64, Event)> {
-        let mut first = None;
-        for block in 0..solution.closed.len() {
-            let reading = solution.closed.reading(block);
-            for (lane, p) in solution.closed.pairs_of(block) {
-                first = self.leaving(base, solution, work, (p, lane), reading, until(first, solution)).or(first);
+    /// Looks for the first departure up to the end of the step's series.
+    pub fn first_leaving(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
+        for ((_, members), reading) in solution.closed.packed.all().zip(&solution.closed.readings) {
+            for (lane, p) in members.lanes() {
+                self.leaving(base, solution, work, (p, lane), reading, first);
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
-            first = self.first_detachment(p, solution, work, until(first, solution)).or(first);
+            self.first_detachment(p, solution, work, first);
         }
-        first
     }
 
-    /// The release or change of branch of one pair in contact, whichever is first.
+    /// Looks for the release or change of branch of one pair in contact, whichever is first.
     fn leaving(
         &self,
         base: &Base,
@@ -42,21 +39,26 @@ impl System {
         work: &mut Buffers,
         (p, lane): (usize, usize),
         reading: &BlockReading,
-        until: f64,
-    ) -> Option<(f64, Event)> {
+        first: &mut First,
+    ) {
         let contact = &base.contacts[p];
         // A pair that entered with a velocity of 0, so that its first terms may be rounding, is released only beyond
         // their rounding error.
-        let depth =
-            if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, solution, work) } else { 0.0 };
-        let released = released(&solution.closed, (p, lane), reading, (solution.end.x, until), depth, &mut work.scalar);
-        let first = released.map(|x| (x, Event::Release(p)));
-        let Some(guard) = contact.force.guard else { return first };
-        let until = released.unwrap_or(until);
-        let noise = self.noise_of_guard(contact, &guard, base, solution, work);
-        match self.passes_guard(contact, &guard, solution, (lane, reading), (until, noise), &mut work.scalar) {
-            Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
-            _ => first,
+        let depth = match contact.at_surface && contact.rate == 0.0 {
+            true => self.pairs[p].noise(self.size_of(p, base, solution, work, |powers| powers.in_time().0)),
+            false => 0.0,
+        };
+        let ends = (solution.end.x, first.until);
+        let released = released(&solution.closed, (p, lane), reading, ends, depth, &mut work.scalar);
+        let until = released.unwrap_or(first.until);
+        let passed = contact.force.guard.and_then(|guard| {
+            let noise = self.noise_of_guard(contact, &guard, base, solution, work);
+            self.passes_guard(contact, &guard, solution, (lane, reading), (until, noise), &mut work.scalar)
+        });
+        match (passed, released) {
+            (Some(x), _) if x < until || released.is_none() => first.set(x, Event::Branch(p)),
+            (_, Some(x)) => first.set(x, Event::Release(p)),
+            _ => {}
         }
     }
 
@@ -100,7 +102,7 @@ impl System {
         if sense * guard.value(contact.penetration, contact.rate) + change < 0.0 {
             return None;
         }
-        let (block, lane) = solution.closed.of(contact.episode.contact);
+        let (block, lane) = solution.closed.packed.of(contact.episode.contact);
         let terms = block.copy_penetration(lane, scalar) - 2;
         let (stiffness, rate) = (sense * guard.stiffness, sense * guard.damping / scale);
         let mut previous = 0.0;
@@ -114,32 +116,26 @@ impl System {
         roots::first_upcrossing(&mut scalar[..terms], until, 0.0)
     }
 
-    /// Rounding error of a penetration within the step, m.
-    fn noise_of(&self, p: usize, base: &Base, solution: &Solution, work: &mut Buffers) -> f64 {
-        let size = self.size_of(p, base, solution, work, |powers| powers.in_time().0);
-        self.pairs[p].noise(size)
-    }
-
     /// Rounding error of a pair's relative acceleration in 0..=x of a series, m/s2.
     fn acceleration_noise(&self, p: usize, series: &MotionSeries, x: f64) -> f64 {
         let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
         for n in 2..=series.order {
-            sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row, series.term(n)).1 * power;
+            sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row.modes, series.term(n)).1 * power;
             power *= x;
         }
         8.0 * f64::EPSILON * sum
     }
 
-    /// The x in 0..=end at which the reaction of a held pair falls to 0.
-    fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
-        let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
-        let noise = self.acceleration_noise(p, &solution.series, end) / self.rigid.matrix[(k, k)];
+    /// Looks for the instant at which the reaction of a held pair falls to 0.
+    fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, first: &mut First) {
+        let Some(k) = self.rigid.pairs.iter().position(|&pair| pair == p) else { return };
+        let noise = self.acceleration_noise(p, &solution.series, first.until) / self.rigid.matrix[(k, k)];
         let force = &solution.reactions[k][..=solution.reaction_order];
         let pull = &mut work.scalar[..force.len()];
         for (pull, force) in pull.iter_mut().zip(force) {
             *pull = -force;
         }
-        roots::first_upcrossing(pull, end, noise).map(|x| (x, Event::Release(p)))
+        first.search(pull, noise, Event::Release(p));
     }
 
     /// Sum of the magnitudes of the terms of a pair's relative motion, m, each times its factor at the end of the step.
@@ -154,13 +150,8 @@ impl System {
         let series = &solution.series;
         work.powers.set_by(&series.time_map, solution.end.x, series.order);
         work.powers.set_in_time(&series.time_map);
-        self.pairs[p].project(base.coordinates, series, factors(&work.powers), &mut work.scalar)
+        self.pairs[p].row.project(base.coordinates, series, factors(&work.powers), &mut work.scalar)
     }
-}
-
-/// The end of a search: the first event known so far, or the end of the step.
-fn until(first: Option<(f64, Event)>, solution: &Solution) -> f64 {
-    first.map_or(solution.end.x, |(x, _)| x)
 }
 
 /// The x at which a penetration returns to 0, or to -`depth`, in 0..=`until`; `reading` is the penetration at `end`.
@@ -172,9 +163,9 @@ fn released(
     depth: f64,
     distance: &mut Coefficients,
 ) -> Option<f64> {
-    let (block, _) = closed.of(p);
+    let (block, _) = closed.packed.of(p);
     let first = (-(block.penetration[0][lane] + depth).max(0.0), -block.penetration[1][lane]);
-    let last = (-reading.penetration[lane] - depth, -reading.slope[lane]);
+    let last = (-reading.value[lane] - depth, -reading.slope[lane]);
     if roots::upper_bound(first, last, end, reading.fourth[lane]) <= 0.0 {
         return None;
     }

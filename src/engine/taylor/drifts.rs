@@ -45,7 +45,7 @@ impl YieldingDrifts {
     #[inline(always)]
     pub fn push(&self, storeys: &[Element], n: usize, factor: f64, term: &mut [f64]) {
         for &(i, _) in &self.yielding {
-            storeys[i].push_apart(self.coordinates, factor * storeys[i].lost * self.drifts[i][n], term);
+            storeys[i].row.push(self.coordinates, factor * storeys[i].lost * self.drifts[i][n], term);
         }
     }
 

@@ -1,12 +1,13 @@
 //! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the
 //! fastest mode is exact. What both of its ends prove not to happen needs no search.
 
-use crate::engine::base::planned::{At, Event, Planned};
+use crate::engine::base::planned::{At, First, Planned};
 use crate::engine::base::{Base, touching};
-use crate::engine::bounds::certificate::{deviation, stays_below};
+use crate::engine::bounds::certificate::stays_below;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
+use crate::numerics::roots::deviation;
 
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
@@ -30,16 +31,13 @@ pub fn plan_exact(
     system.expand_exactly(base, solution, work, length);
     at.counters.yielding_steps += 1;
     system.end_at(1.0, solution, planned);
-    let event = system.first_of_exact(base, (length, planned), solution, work);
-    if let Some((x, _)) = event {
-        system.end_at(x, solution, planned);
+    let First { until, event } = system.first_of_exact(base, (length, planned), solution, work);
+    if event.is_some() {
+        system.end_at(until, solution, planned);
     }
-    planned.event = event.map(|(_, event)| event);
-    planned.reaches_limit = length == remaining && !is_cut && event.is_none();
-    planned.length = length * solution.end.x;
+    let reaches_limit = length == remaining && !is_cut && event.is_none();
     // The scale of contact does not change while none is closed.
-    planned.next_length = None;
-    planned.ends.clear();
+    planned.plan(length * solution.end.x, event, reaches_limit, None);
     system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
     true
 }
@@ -52,38 +50,38 @@ impl System {
         solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
     }
 
-    /// The first event in a step of that length, s, whose end is planned, as (x, event).
+    /// The first event in a step of that length, s, whose end is planned.
     fn first_of_exact(
         &self,
         base: &Base,
         (h, planned): (f64, &Planned),
         solution: &mut Solution,
         work: &mut Buffers,
-    ) -> Option<(f64, Event)> {
+    ) -> First {
         let coordinates = base.coordinates;
         let fourths = &mut work.node_q;
         solution.series.bound_fourths(&solution.end, fourths);
-        let mut first = None;
+        let mut first = First::up_to(1.0);
         for &(i, sense) in &solution.drifts.yielding {
-            first = self.first_change(base, solution, (i, sense), first);
+            self.first_change(base, solution, (i, sense), &mut first);
         }
         for (i, (of, present)) in self.elements(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));
             let (start, end) = (at((&base.q, &base.v)), at((&planned.q, &planned.v)));
-            let off = deviation(h, of.size(coordinates, fourths));
+            let off = deviation(h, of.row.difference(coordinates, fourths).1);
             if present.0.yields.is_none() && !of.stays_elastic(present, start, end, (h, off)) {
                 let expanded = ((&solution.series, solution.end.in_time().0), None, true);
-                first = self.first_yield(base, i, expanded, first, 1.0).or(first);
+                self.first_yield(base, i, expanded, &mut first);
             }
         }
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
             let at = |q: &[f64], v: &[f64]| (pair.relative(coordinates, q), pair.relative(coordinates, v));
             let (end, rate) = at(&planned.q, &planned.v);
             let (from, to) = ((contact.flight_start(), contact.rate), (end - base.rest.gaps[p], rate));
-            let off = deviation(h, pair.difference(coordinates, fourths).1);
+            let off = deviation(h, pair.row.difference(coordinates, fourths).1);
             if !stays_below(from, to, (h, off)) {
                 let expanded = ((&solution.series, &*solution.substitution), &mut solution.end);
-                first = self.first_entry_of(base, p, expanded, &mut work.scalar, first).or(first);
+                self.first_entry_of(base, p, expanded, &mut work.scalar, &mut first);
             }
         }
         first

@@ -2,6 +2,7 @@
 
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
+use crate::engine::pairs::packing::has_few_modes;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::drifts::WithYielding;
@@ -9,7 +10,7 @@ use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{FEW_BLOCKS, LANES, difference, dot, flight_order};
+use crate::structure::{difference, dot, flight_order};
 
 /// Remainder of a series, relative to its terms, that is less than their rounding.
 const ROUNDING: f64 = 1e-17;
@@ -49,7 +50,7 @@ impl System {
                 ));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
-                if cfg!(without = "few_modes") || base.q.len() > FEW_BLOCKS * LANES {
+                if !has_few_modes(base) {
                     with_forces!(closed, ModalJacobian(&self.pairs), |pairs| series.expand_modes(
                         structure,
                         order,
@@ -76,13 +77,12 @@ impl System {
     /// Extends the series by more powers, if these are cheap and no pair is released within `reach`; returns whether it
     /// did.
     pub fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
-        let is_on_few_modes = !cfg!(without = "few_modes")
-            && base.coordinates == Coordinates::Modes
-            && base.q.len() <= FEW_BLOCKS * LANES
+        let are_cheap = base.coordinates == Coordinates::Modes
+            && has_few_modes(base)
             && self.structure.is_classical()
-            && work.rigid.pairs.is_empty();
-        let are_cheap =
-            is_on_few_modes && self.tolerance.linear_order > self.tolerance.order && solution.closed.are_linear();
+            && work.rigid.pairs.is_empty()
+            && self.tolerance.linear_order > self.tolerance.order
+            && solution.closed.are_linear();
         if !are_cheap || solution.closed.are_some_nearly_released(reach) {
             return false;
         }
@@ -113,7 +113,7 @@ impl System {
         let term = series.term(n + 2);
         drifts.read(&self.storeys, n + 2, term);
         closed.set_penetrations(n + 2, |p, at_surface| {
-            let row = &self.pairs[p].row;
+            let row = &self.pairs[p].row.modes;
             if at_surface { difference(row, term).0 } else { dot(row, term) }
         });
     }

@@ -23,7 +23,7 @@ pub mod step_size;
 pub mod switches;
 pub mod time_map;
 
-use crate::engine::base::planned::{At, Event, Planned};
+use crate::engine::base::planned::{At, Event, First, Planned};
 use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -51,11 +51,9 @@ pub fn plan(
     let event = system.first_event(base, solution, work, end);
     solution.end.set_in_time(&solution.series.time_map);
     solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
-    planned.event = event;
-    planned.reaches_limit = is_whole && !is_cut && event.is_none();
-    planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
-    planned.next_length = Some(solution.series.time(reach));
-    planned.ends.clear();
+    let reaches_limit = is_whole && !is_cut && event.is_none();
+    let length = if reaches_limit { remaining } else { solution.series.time(solution.end.x) };
+    planned.plan(length, event, reaches_limit, Some(solution.series.time(reach)));
     system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
     for (reaction, &p) in solution.reactions.iter().zip(&system.rigid.pairs) {
         if base.contacts[p].is_held() {
@@ -88,19 +86,14 @@ impl System {
     /// The first event up to x = `end`; sets the end of the step in the solution, which is there or at the event.
     fn first_event(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, end: f64) -> Option<Event> {
         solution.end_at(end);
-        let leaving = self.first_leaving(base, solution, work);
-        if let Some((x, _)) = leaving {
-            solution.end_at(x);
+        let mut first = First::up_to(end);
+        // Only the last two need the motion; they are searched for only up to the first departure.
+        for look_for in [System::first_leaving, System::first_switch, System::first_entry] {
+            look_for(self, base, solution, work, &mut first);
+            if first.until < solution.end.x {
+                solution.end_at(first.until);
+            }
         }
-        let switch = self.first_switch(base, solution, work);
-        if let Some((x, _)) = switch {
-            solution.end_at(x);
-        }
-        // Only these two need the motion; they are searched for only up to the first departure.
-        let entry = self.first_entry(base, solution, work);
-        if let Some((x, _)) = entry {
-            solution.end_at(x);
-        }
-        entry.or(switch).or(leaving).map(|(_, event)| event)
+        first.event
     }
 }

@@ -4,20 +4,18 @@ use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::terms::{Horizon, PenetrationBounds};
 use crate::engine::pairs::jacobian::{ContactJacobian, FloorJacobian, ModalJacobian, PackedModalJacobian};
-use crate::engine::pairs::packing::{LanePlace, PackedPairs, most_blocks};
-use crate::engine::pairs::pair::{Pair, relative};
+use crate::engine::pairs::packing::{PackedBlocks, PackedPairs, has_few_modes};
+use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::row::relative;
 use crate::numerics::polynomial::{MAX_TERMS, each};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
+use crate::structure::MotionSeries;
 
 /// All pairs in blocks, and the series of those that are apart.
 #[derive(Clone, Debug)]
 pub struct OpenPairs {
-    /// Allocated for all pairs; the first `used` are filled.
-    pub members: Vec<PackedPairs>,
-    /// Number of blocks in use.
-    pub used: usize,
+    pub packed: PackedBlocks<()>,
     /// The coordinates for which the pairs have been assigned.
     pub coordinates: Option<Coordinates>,
     /// Numbers of the blocks with an open pair that may meet.
@@ -31,10 +29,10 @@ pub struct OpenPairs {
 impl OpenPairs {
     /// Allocates for that many pairs.
     pub fn new(pairs: usize, on_floors: bool) -> OpenPairs {
-        let most = most_blocks(pairs, 1, on_floors);
+        let packed = PackedBlocks::new(pairs, 1, on_floors);
+        let most = packed.most();
         OpenPairs {
-            members: vec![PackedPairs::default(); most],
-            used: 0,
+            packed,
             coordinates: None,
             apart: Vec::with_capacity(most),
             terms: vec![[0.0; PAIRS]; most * MAX_TERMS],
@@ -47,15 +45,10 @@ impl OpenPairs {
         if self.coordinates == Some(coordinates) {
             return;
         }
-        (self.coordinates, self.used) = (Some(coordinates), 0);
-        for (p, pair) in pairs.iter().enumerate() {
-            let place = LanePlace::of(pair, coordinates);
-            let found = (0..self.used).find_map(|b| Some((b, self.members[b].free_lane(place)?)));
-            let (b, lane) = found.unwrap_or_else(|| {
-                self.used += 1;
-                (self.used - 1, self.members[self.used - 1].start(place))
-            });
-            self.members[b].set(lane, p, pair, coordinates);
+        self.coordinates = Some(coordinates);
+        self.packed.clear();
+        for of in pairs.iter().enumerate() {
+            self.packed.add(of, coordinates, |_| true, |_| ());
         }
     }
 
@@ -69,8 +62,8 @@ impl OpenPairs {
         powers: &Powers,
         room: &mut [f64],
     ) {
-        let OpenPairs { members, apart, terms, bounds, .. } = self;
-        let members = &members[..self.used];
+        let OpenPairs { packed, apart, terms, bounds, .. } = self;
+        let (_, members) = packed.all_mut();
         apart.clear();
         let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
         let may_meet = |(lane, p): (usize, usize), members: &PackedPairs| {
@@ -90,9 +83,7 @@ impl OpenPairs {
         let terms = &mut terms[..(series.order + 1) * apart.len()];
         match base.coordinates {
             Coordinates::Floors => relate(&FloorJacobian, series, (members, apart), terms),
-            Coordinates::Modes if !cfg!(without = "few_modes") && base.q.len() <= FEW_BLOCKS * LANES => {
-                relate(&PackedModalJacobian, series, (members, apart), terms)
-            }
+            Coordinates::Modes if has_few_modes(base) => relate(&PackedModalJacobian, series, (members, apart), terms),
             Coordinates::Modes => relate(&ModalJacobian(pairs), series, (members, apart), terms),
         }
         if series.time_map.is_curved() {

@@ -3,26 +3,14 @@
 use crate::contact::taylor::PairBlock;
 use crate::engine::pairs::jacobian::ContactJacobian;
 use crate::engine::pairs::packing::PackedPairs;
-use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
+use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 
 /// Closed pairs that share no floor: each penetration's new power is worked out together with its own force.
 pub struct AtOnce<'a, M> {
-    pub blocks: Blocks<'a>,
+    pub blocks: (&'a mut [PairBlock], &'a [PackedPairs]),
     pub jacobian: M,
-}
-
-impl<M: ContactJacobian> AtOnce<'_, M> {
-    #[inline(always)]
-    fn act_by(jacobian: &M, block: &mut PairBlock, members: &PackedPairs, n: usize, factor: f64, term: &mut [Lane]) {
-        let force = block.extend_force(n);
-        let relative = jacobian.relative_and_apply(members, block.count, &each(|i| factor * force[i]), term);
-        // The effect of a force on its own pair by its inverse mass: so the next power of the force need not wait for
-        // the motion.
-        let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
-        block.set_penetration(n + 2, relative);
-    }
 }
 
 impl<M: ContactJacobian> PairForces for AtOnce<'_, M> {
@@ -30,7 +18,12 @@ impl<M: ContactJacobian> PairForces for AtOnce<'_, M> {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         let (blocks, members) = &mut self.blocks;
         for (block, members) in blocks.iter_mut().zip(*members) {
-            Self::act_by(&self.jacobian, block, members, n, factor, term);
+            let force = block.extend_force(n);
+            let forces = each(|i| factor * force[i]);
+            let relative = self.jacobian.relative_and_apply(members, block.count, &forces, term);
+            // The effect of a force on its own pair by its inverse mass: so the next power of the force need not wait for
+            // the motion.
+            block.set_penetration(n + 2, each(|i| relative[i] - factor * members.softness[i] * force[i]));
         }
     }
 }
@@ -43,7 +36,7 @@ pub struct InTurn<'a, M> {
 
 impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
-        let (blocks, members) = self.closed.blocks();
+        let (blocks, members) = self.closed.packed.all_mut();
         for (block, members) in blocks.iter_mut().zip(members) {
             let force = block.extend_force(n);
             self.jacobian.apply(members, block.count, &force.map(|force| factor * force), term);
@@ -59,11 +52,11 @@ impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
 macro_rules! with_forces {
     ($closed:expr, $jacobian:expr, |$forces:ident| $expand:expr) => {{
         use $crate::engine::taylor::pair_forces::{AtOnce, InTurn};
-        if cfg!(without = "at_once") || $closed.waits() {
+        if cfg!(without = "at_once") || $closed.waits {
             let $forces = &mut InTurn { closed: $closed, jacobian: $jacobian };
             $expand
         } else {
-            let $forces = &mut AtOnce { blocks: $closed.blocks(), jacobian: $jacobian };
+            let $forces = &mut AtOnce { blocks: $closed.packed.all_mut(), jacobian: $jacobian };
             $expand
         }
     }};

@@ -48,7 +48,7 @@ impl System {
         for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
             let law = contact.branch();
             let mut terms = [0.0; MAX_TERMS];
-            let (block, lane) = solution.closed.of(p);
+            let (block, lane) = solution.closed.packed.of(p);
             block.copy_penetration(lane, &mut terms);
             let left_out = |x: f64| {
                 let (penetration, rate) =

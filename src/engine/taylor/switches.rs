@@ -1,6 +1,6 @@
 //! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
 
-use crate::engine::base::planned::Event;
+use crate::engine::base::planned::{Event, First};
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::terms::Horizon;
@@ -9,7 +9,6 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::yielding::element::Element;
 use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
-use crate::numerics::roots;
 
 /// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger
 /// than the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
@@ -30,30 +29,29 @@ impl System {
     /// time, s: where oscillators move in
     /// flights, velocities have the rounding of both.
     fn size_of_rate(&self, of: &Element, coordinates: Coordinates, (q, v): (&[f64], &[f64]), scale: f64) -> f64 {
-        let of_rates = of.size(coordinates, v);
+        let of_rates = of.row.difference(coordinates, v).1;
         match self.structure.oscillators() {
-            Some(_) => of_rates + self.structure.fastest * scale * of.size(coordinates, q),
+            Some(_) => of_rates + self.structure.fastest * scale * of.row.difference(coordinates, q).1,
             None => of_rates,
         }
     }
 
-    /// The first instant up to the end of the step at which a storey yields or turns, as (x, event).
-    pub fn first_switch(&self, base: &Base, solution: &mut Solution, work: &mut Buffers) -> Option<(f64, Event)> {
+    /// Looks for the first instant up to the end of the step at which a storey yields or turns.
+    pub fn first_switch(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
         if self.storeys.is_empty() {
-            return None;
+            return;
         }
-        let mut first = None;
         for &(i, sense) in &solution.drifts.yielding {
-            first = match self.holds_storey(i, &mut work.rigid) {
-                true => Some((0.0, Event::Turn(i))),
+            match self.holds_storey(i, &mut work.rigid) {
+                true => first.set(0.0, Event::Turn(i)),
                 false => self.first_change(base, solution, (i, sense), first),
-            };
+            }
         }
         let Solution { series, end, substitution, .. } = solution;
         let horizon = Horizon::of(series, end.x, &mut work.node_q);
         for (i, (of, (storey, centre))) in self.elements(&base.storeys).enumerate() {
             let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
-            let wandered = of.size(base.coordinates, horizon.wandered);
+            let wandered = of.row.difference(base.coordinates, horizon.wandered).1;
             let stays_elastic =
                 |sense: Sense| horizon.is_beyond(of.excess(centre, sense, drift), sense.sign() * step, wandered);
             let is_sure = storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
@@ -62,54 +60,39 @@ impl System {
             }
             end.set_in_time(&series.time_map);
             let expanded = ((&*series, end.in_time().0), Some(&**substitution), true);
-            first = self.first_yield(base, i, expanded, first, end.x).or(first);
+            self.first_yield(base, i, expanded, first);
         }
-        first
-    }
-}
-
-impl System {
-    /// The first instant at which a storey that yields turns or collapses, or the first event known so far.
-    pub fn first_change(
-        &self,
-        base: &Base,
-        solution: &Solution,
-        yielding: (usize, Sense),
-        first: Option<(f64, Event)>,
-    ) -> Option<(f64, Event)> {
-        let first = self.first_turn(solution, yielding, first).or(first);
-        self.first_collapse(base, solution, yielding, first).or(first)
     }
 
-    /// The first instant at which the drift of a storey that yields is that of its collapse, if before the first event known
-    /// so far.
+    /// Looks for the first instant at which a storey that yields turns or collapses.
+    pub fn first_change(&self, base: &Base, solution: &Solution, yielding: (usize, Sense), first: &mut First) {
+        self.first_turn(solution, yielding, first);
+        self.first_collapse(base, solution, yielding, first);
+    }
+
+    /// Looks for the first instant at which the drift of a storey that yields is that of its collapse.
     fn first_collapse(
         &self,
         base: &Base,
-        Solution { series, drifts, substitution, end, .. }: &Solution,
+        Solution { series, drifts, substitution, .. }: &Solution,
         (i, sense): (usize, Sense),
-        first: Option<(f64, Event)>,
-    ) -> Option<(f64, Event)> {
-        let collapse = self.storeys[i].collapse?;
-        let (count, until) = (series.order + 1, first.map_or(end.x, |(x, _)| x));
+        first: &mut First,
+    ) {
+        let Some(collapse) = self.storeys[i].collapse else { return };
+        let count = series.order + 1;
         let mut terms = drifts.drifts[i].map(|term| sense.sign() * term);
         terms[0] = (sense.sign() * base.storeys[i].plastic + self.storeys[i].limit - collapse).min(0.0);
         if series.time_map.is_curved() {
             substitution.apply_to_one(&mut terms[..count]);
         }
         let noise = 4.0 * f64::EPSILON * collapse;
-        roots::first_upcrossing(&mut terms[..count], until, noise).map(|x| (x, Event::Collapse(i)))
+        first.search(&mut terms[..count], noise, Event::Collapse(i));
     }
 
-    /// The first instant at which the drift of a storey that yields turns, if before the first event known so far: at
-    /// once where it does not go on in its sense by more than rounding, as that of a floor that is held.
-    pub fn first_turn(
-        &self,
-        solution: &Solution,
-        (i, sense): (usize, Sense),
-        first: Option<(f64, Event)>,
-    ) -> Option<(f64, Event)> {
-        let Solution { series, drifts, substitution, end, .. } = solution;
+    /// Looks for the first instant at which the drift of a storey that yields turns: at once where it does not go on in its
+    /// sense by more than rounding, as that of a floor that is held.
+    fn first_turn(&self, solution: &Solution, (i, sense): (usize, Sense), first: &mut First) {
+        let Solution { series, drifts, substitution, .. } = solution;
         let mut terms = [0.0; MAX_TERMS];
         let count = series.order;
         for n in 0..count {
@@ -120,13 +103,13 @@ impl System {
         if terms[0] >= -still {
             // What is rounding shall not decide.
             let mut drift = [0.0; MAX_TERMS];
-            self.storeys[i].project(drifts.coordinates, series, &ALL, &mut drift);
+            self.storeys[i].row.project(drifts.coordinates, series, &ALL, &mut drift);
             drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-            let size = self.storeys[i].size(drifts.coordinates, series.term(0));
+            let size = self.storeys[i].row.difference(drifts.coordinates, series.term(0)).1;
             self.clear_curvature((self.structure.fastest, size), i, series, &mut drift);
-            let first = drift[1..=count].iter().find(|term| **term != 0.0);
-            if first.is_none_or(|term| sense.sign() * term < 0.0) {
-                return Some((0.0, Event::Turn(i)));
+            let leading = drift[1..=count].iter().find(|term| **term != 0.0);
+            if leading.is_none_or(|term| sense.sign() * term < 0.0) {
+                return first.set(0.0, Event::Turn(i));
             }
             for n in 0..2 {
                 terms[n] = -sense.sign() * (COUNT[n + 1] * drift[n + 1]);
@@ -135,7 +118,6 @@ impl System {
         if series.time_map.is_curved() {
             substitution.apply_to_one(&mut terms[..count]);
         }
-        let until = first.map_or(end.x, |(x, _)| x);
-        roots::first_upcrossing(&mut terms[..count], until, 0.0).map(|x| (x, Event::Turn(i)))
+        first.search(&mut terms[..count], 0.0, Event::Turn(i));
     }
 }

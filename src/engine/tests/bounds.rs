@@ -213,7 +213,7 @@ fn no_storey_yields_in_a_window_that_is_called_elastic() {
         case.start(&mut random, start, &row);
         let h = random.power_of_ten(-3.0, 0.8) / case.system.structure.fastest;
         let force = random.one_of(&[0.0, 1.0]) * random.power_of_ten(-2.0, 2.0)
-            / case.system.pairs[0].row.iter().map(|r| r.abs()).sum::<f64>();
+            / case.system.pairs[0].row.modes.iter().map(|r| r.abs()).sum::<f64>();
         let [mut load, slope] = case.load(3);
         let Case { system, base, work, .. } = &mut case;
         (work.load, work.slope) = (load.clone(), slope.clone());
@@ -225,7 +225,7 @@ fn no_storey_yields_in_a_window_that_is_called_elastic() {
             limit_storey(system, limit);
             window.stays_elastic(system, base, work)
         });
-        load.iter_mut().zip(&case.system.pairs[0].row).for_each(|(load, row)| *load -= row * force);
+        load.iter_mut().zip(&case.system.pairs[0].row.modes).for_each(|(load, row)| *load -= row * force);
         let motion = case.motion([case.base.q.clone(), case.base.v.clone()], [load, slope], (h, 64));
         let reached = largest(course(&row, &motion).map(f64::abs));
         let what = || format!("{start:?}, {storeys:?} storeys, {damping:?}, {ground:?}, {h:e} s, {force:e} N");

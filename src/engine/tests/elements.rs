@@ -4,7 +4,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::Storey;
 use crate::engine::system::System;
-use crate::engine::yielding::element::{Element, ElementOf};
+use crate::engine::yielding::element::ElementOf;
 use crate::scene::{Link, Place, Scene, Side, Slip};
 use nalgebra::{DMatrix, DVector};
 
@@ -41,7 +41,7 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
     assert_eq!(places.map(|place| system.number_of(place)), [0, 1, 2, 3].map(Some));
     assert_eq!((system.number_of_link(0), system.number_of_link(1)), (None, Some(3)));
     // Of the ground's acceleration, drifts between two floors get nothing.
-    assert_eq!(system.storeys.iter().map(Element::share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
+    assert_eq!(system.storeys.iter().map(|of| of.row.share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
     // (row, k, (1 - r) k) of the elements, and the link that does not slip.
     let elements = [
         ([1.0, 0.0, 0.0], 2e7, 0.9 * 2e7),

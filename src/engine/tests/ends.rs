@@ -7,14 +7,14 @@ use super::motions::{
 };
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::{At, Event, Planned};
-use crate::engine::bounds::certificate::{Certificate, deviation};
+use crate::engine::base::planned::{At, Event, First, Planned};
+use crate::engine::bounds::certificate::Certificate;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
 use crate::engine::flight::workspace::Look;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::roots::highest_of_cubic;
+use crate::numerics::roots::{deviation, highest_of_cubic};
 
 #[test]
 fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
@@ -205,7 +205,7 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
             open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
             let (followed, x) = (open.apart.iter().zip(&open.bounds), end.x);
             let mut lanes = followed.flat_map(|(block, bounds)| {
-                open.members[*block].lanes().map(move |(lane, pair)| (pair, bounds.stays_apart(x)[lane]))
+                open.packed.members(*block).lanes().map(move |(lane, pair)| (pair, bounds.stays_apart(x)[lane]))
             });
             lanes.find(|(pair, _)| *pair == p).is_none_or(|(_, stays_apart)| stays_apart)
         });
@@ -243,21 +243,23 @@ fn terms_bound_fourth_derivatives_and_drifts() {
         system.expand_exactly(&base, &mut solution, work, time);
         solution.end_at(1.0);
         solution.series.bound_fourths(&solution.end, &mut work.node_q);
-        let fourth = system.pairs[0].difference(base.coordinates, &work.node_q).1;
+        let fourth = system.pairs[0].row.difference(base.coordinates, &work.node_q).1;
         let what = || format!("{start:?}, {storeys:?} storeys, {damping:?}, {time:e} s");
         sizes.note(off, deviation(time, fourth), rounding, &what);
         let Solution { open, series, end, substitution, .. } = &mut solution;
         open.assign(&system.pairs, base.coordinates);
         open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
         for (block, bounds) in open.apart.iter().zip(&open.bounds) {
-            let lane = open.members[*block].lanes().find(|(_, pair)| *pair == 0);
+            let lane = open.packed.members(*block).lanes().find(|(_, pair)| *pair == 0);
             lane.iter().for_each(|(lane, _)| own.note(off, deviation(1.0, bounds.fourth[*lane]), rounding, &what));
         }
         let row = case.rows()[3].clone();
         let Case { system, work, .. } = &mut case;
         let bound = threshold(row.value(&motion[0][0], &motion[0][1]).abs(), |limit| {
             limit_storey(system, limit);
-            system.first_switch(&base, &mut solution, work).is_none()
+            let mut first = First::up_to(solution.end.x);
+            system.first_switch(&base, &mut solution, work, &mut first);
+            first.event.is_none()
         });
         let reached = largest(course(&row, &motion).map(f64::abs));
         switches.note(reached, bound, ROUNDING * size(&row, &motion), &what);

@@ -17,11 +17,12 @@ impl Window {
         let h = self.solution.length;
         let Buffers { load, slope, node_v: amplitudes, .. } = work;
         let closed = self.contacts.iter().zip(&self.greatest).take(self.equation.closed);
-        let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row[..], h * greatest));
+        let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row.modes[..], h * greatest));
         pushed(&system.structure.omega2, (&base.q, &base.v), (load, slope), h, impulses, amplitudes);
         system.together.largest_share(amplitudes) + system.moved_share(&base.storeys) < 1.0
             || system.elements(&base.storeys).all(|(of, (_, centre))| {
-                let most: f64 = of.row.iter().zip(&*amplitudes).map(|(row, amplitude)| row.abs() * amplitude).sum();
+                let most: f64 =
+                    of.row.modes.iter().zip(&*amplitudes).map(|(row, amplitude)| row.abs() * amplitude).sum();
                 let (drift, change) = (of.drift(base.coordinates, &base.q), (1.0 + MARGIN) * h * most);
                 Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) + change < 0.0)
             })

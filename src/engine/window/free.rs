@@ -37,7 +37,7 @@ impl FreeTerms<'_> {
     /// Writes the terms of a pair's distance, m, from power 2 on.
     pub fn enter(&self, system: &System, p: usize, out: &mut [f64]) {
         match self {
-            FreeTerms::Series(series) => series.dot_each(&system.pairs[p].row, 2, out),
+            FreeTerms::Series(series) => series.dot_each(&system.pairs[p].row.modes, 2, out),
             FreeTerms::Rows(rows, base) => {
                 let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
                 rows.enter(p, (&base.q, &base.v), ground, out);
@@ -49,7 +49,7 @@ impl FreeTerms<'_> {
     pub fn curvature_at_start(&self, system: &System, p: usize, room: &mut [f64]) -> f64 {
         let scale = self.scale();
         let term = match self {
-            FreeTerms::Series(series) => dot(&system.pairs[p].row, series.term(2)),
+            FreeTerms::Series(series) => dot(&system.pairs[p].row.modes, series.term(2)),
             FreeTerms::Rows(..) => {
                 self.enter(system, p, room);
                 room[2]

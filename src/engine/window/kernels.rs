@@ -1,7 +1,7 @@
 //! Data of windows that stay constant during a run: kernels of the pairs, error allowance, lengths.
 
 use crate::collocation::{Kernel, Map, POWERS, Tables};
-use crate::contact::{EpisodeForce, Force};
+use crate::contact::Force;
 use crate::engine::base::Coordinates;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
@@ -48,14 +48,15 @@ impl Windows {
         let (response, maps) = (impulse_response.as_ref()?, maps(pairs)?);
         Tables::prepare(maps);
         let known = if pairs.len() <= MOST_KNOWN { &pairs[..] } else { &[] };
-        let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
+        let kernels =
+            known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row.modes, &q.row.modes))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
         let curvatures = response.longest().map_or(Vec::new(), |time| {
-            let of = |p: &Pair, q: &Pair| response.curvature(structure, &p.row, &q.row, time);
+            let of = |p: &Pair, q: &Pair| response.curvature(structure, &p.row.modes, &q.row.modes, time);
             pairs.iter().flat_map(|p| pairs.iter().map(move |q| of(p, q))).collect()
         });
-        let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row, response.longest()?));
+        let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row.modes, response.longest()?));
         let prepared_pushes = pairs.iter().filter_map(push).collect();
         Some(Windows {
             kernels,
@@ -77,7 +78,7 @@ impl Windows {
         let pairs = &system.pairs;
         match (self.kernels.get(p * pairs.len() + q), &system.impulse_response) {
             (Some(known), _) => known,
-            (None, Some(response)) => room.insert(response.kernel(&pairs[p].row, &pairs[q].row)),
+            (None, Some(response)) => room.insert(response.kernel(&pairs[p].row.modes, &pairs[q].row.modes)),
             (None, None) => room.insert([0.0; POWERS]),
         }
     }
@@ -99,7 +100,7 @@ pub fn are_for(force: &Force) -> bool {
 
 /// The maps of windows for some pairs; `None` where windows are for none of them.
 fn maps(pairs: &[Pair]) -> Option<&'static [Map]> {
-    let forces = pairs.iter().map(|pair| EpisodeForce::new(&pair.law, pair.mass, None).engaged);
+    let forces = pairs.iter().map(Pair::force);
     let has_root = forces.filter(are_for).map(|force| matches!(force, Force::Root { .. })).reduce(|a, b| a || b)?;
     Some(if has_root { &Map::ALL } else { &Map::SQUARE })
 }

@@ -281,16 +281,13 @@ impl Window {
         remaining: f64,
     ) {
         let (length, contacts) = (self.solution.length, self.contacts);
-        planned.tracked.fill(None);
-        planned.ends.clear();
-        planned.length = length;
-        planned.reaches_limit = length == remaining && ending == Ending::Given;
-        planned.event = match ending {
+        let event = match ending {
             Ending::Given => None,
             Ending::Release(place) => Some(Event::Release(contacts[place])),
             Ending::Turn(place) => Some(Event::Branch(contacts[place])),
             Ending::Touch(place) => Some(Event::Entry(contacts[place])),
         };
+        planned.plan(length, event, length == remaining && event.is_none(), Some(length));
         let free = match terms {
             FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
             FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
@@ -300,7 +297,6 @@ impl Window {
             true => self.evaluate(system, free, length, end),
             false => self.end_by_nodes(system, windows, free, end),
         }
-        planned.next_length = Some(length);
     }
 
     /// A trial up to the first event that a solved window has passed; `None` if it has passed none.

@@ -185,7 +185,7 @@ impl Window {
         let mut room = None;
         let moments = self.moments(elapsed, &mut room);
         for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
-            response.push(&system.pairs[*p].row, &moments[..self.equation.powers], (q, v));
+            response.push(&system.pairs[*p].row.modes, &moments[..self.equation.powers], (q, v));
         }
         for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
             *pair = self.depth(place, elapsed, moments);
@@ -201,7 +201,7 @@ impl Window {
         free.evaluate(system, length, (q, v));
         for ((&p, force), moments) in self.contacts.iter().zip(force).zip(&self.whole).take(self.equation.closed) {
             if !windows.prepared_pushes[p].push((map, rule, length), force, (q, v)) {
-                response.push(&system.pairs[p].row, &moments[..self.equation.powers], (q, v));
+                response.push(&system.pairs[p].row.modes, &moments[..self.equation.powers], (q, v));
             }
         }
     }

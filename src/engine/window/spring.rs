@@ -1,7 +1,6 @@
 //! Estimates of the time in which the spring of a power law alone makes a contact turn and releases it.
 
 use crate::contact::force::power;
-use crate::contact::{EpisodeForce, Force};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::quadrature::{EIGHT, gauss};
 
@@ -33,11 +32,11 @@ pub struct Forecast {
 impl Spring {
     /// For a pair; `None` under other laws.
     pub fn of(pair: &Pair) -> Option<Spring> {
-        let (stiffness, n) = match EpisodeForce::new(&pair.law, pair.mass, None).engaged {
-            Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
-            Force::Root { stiffness, .. } => (stiffness, 1.5),
-            Force::None | Force::Linear { .. } => return None,
-        };
+        let force = pair.force();
+        if force.is_regular() {
+            return None;
+        }
+        let (stiffness, n, _) = force.in_units_of(1.0);
         let root = |x: f64| libm::pow(x, 1.0 / (n + 1.0));
         Some(Spring {
             exponent: n,

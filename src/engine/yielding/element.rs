@@ -4,15 +4,14 @@
 //! The motion of a storey is that of the net storey, its columns and gravity together (`scene/p_delta.rs`); what is told of
 //! it is that of the columns. Without gravity both are the same.
 
+use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::certificate::stays_below;
-use crate::engine::pairs::pair::{FloorShare, beyond_rounding, share_of_ground};
-use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
+use crate::engine::pairs::row::Row;
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::yielding::lift::Lift;
-use crate::numerics::polynomial::Coefficients;
-use crate::scene::{NetStorey, Scene};
-use crate::structure::{MotionSeries, Side, Structure, difference, dot};
+use crate::scene::{NetStorey, Place, Scene};
+use crate::structure::{Side, Structure};
 
 /// What an element is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,14 +40,8 @@ pub(crate) struct Element {
     /// Drift at which a storey that yields resists no push any more, m, and that at which it has collapsed.
     pub critical: Option<f64>,
     pub collapse: Option<f64>,
-    /// The drift as a row over the modes, kg^-1/2.
-    pub row: Vec<f64>,
-    /// The drift over oscillators, where these move in flights.
-    oscillating: Option<OscillatorRows>,
-    /// The same row floor by floor; a force along it pushes against the shares' `push`.
-    pub floors: Vec<FloorShare>,
-    /// Minus the acceleration of its drift by that of the ground, per unit of it.
-    share_of_ground: f64,
+    /// The row of its drift. A force along it pushes the floors of a storey apart.
+    pub row: Row,
     /// How its plastic drift moves the position of rest.
     lift: Lift,
 }
@@ -73,7 +66,7 @@ impl Element {
             let storeys = 0..scene.building(side).mass.len();
             storeys.filter_map(move |storey| Element::of_storey(scene, structure, (side, storey)))
         };
-        let storeys = [Side::Left, Side::Right].into_iter().flat_map(of);
+        let storeys = Side::BOTH.into_iter().flat_map(of);
         let mut all: Vec<Element> =
             storeys.chain((0..scene.links.len()).filter_map(|link| Element::of_link(scene, structure, link))).collect();
         Element::join(&mut all);
@@ -84,25 +77,23 @@ impl Element {
     pub(crate) fn join(all: &mut [Element]) {
         let lifts: Vec<Lift> = all.iter().map(|of| of.lift.clone()).collect();
         for Element { row, lift, .. } in all {
-            lift.join(row, &lifts);
+            lift.join(&row.modes, &lifts);
         }
     }
 
     fn of_storey(scene: &Scene, structure: &Structure, (side, storey): (Side, usize)) -> Option<Element> {
         let building = scene.building(side);
         let of = building.net_storey(storey)?;
-        let mut row = vec![0.0; structure.lanes];
-        let places = structure.floors.places(side);
-        places.drift(storey).for_each(|(place, weight)| structure.add_force(side, place, weight, &mut row));
-        let floors = places.drift(storey).filter_map(|(place, w)| Some((structure.floors.lane_of(side, place)?, w)));
+        let places: Vec<(Place, f64)> = structure.floors.places(side).drift(storey).collect();
+        let row = Row::of(structure, places.iter().map(|&(place, weight)| (side, place, weight)));
         let lift = match structure.body(side).is_linked {
-            true => Lift::all((1.0 - of.ratio) * of.stiffness, &row, structure),
+            true => Lift::all((1.0 - of.ratio) * of.stiffness, &row.modes, structure),
             false => Lift::above(structure, (side, storey), 1.0 - of.net_ratio()),
         };
         Some(Element {
             critical: of.critical_drift(),
             collapse: building.collapse_drift(storey),
-            ..Element::on((ElementOf::Storey(side, storey), of), (row, floors), lift, structure)
+            ..Element::on((ElementOf::Storey(side, storey), of), row, lift)
         })
     }
 
@@ -111,23 +102,12 @@ impl Element {
         let (link, slip) = (&structure.links[number], scene.links[number].slip?);
         let spring = NetStorey { stiffness: link.stiffness, force: slip.force, ratio: slip.ratio, gravity: 0.0 };
         let lift = Lift::all((1.0 - slip.ratio) * link.stiffness, &link.row, structure);
-        let row = (link.row.clone(), link.floors.iter().copied());
-        Some(Element::on((ElementOf::Link(number), spring), row, lift, structure))
+        let row = Row::over(structure, link.row.clone(), link.floors.iter().copied());
+        Some(Element::on((ElementOf::Link(number), spring), row, lift))
     }
 
-    /// An element on a row over the modes, which is that over floors with those lanes and weights.
-    fn on(
-        (place, of): (ElementOf, NetStorey),
-        (row, floors): (Vec<f64>, impl Iterator<Item = (usize, f64)>),
-        lift: Lift,
-        structure: &Structure,
-    ) -> Element {
-        let share = |(lane, weight): (usize, f64)| FloorShare {
-            lane,
-            weight,
-            push: -weight * structure.floors.inverse_mass(lane),
-        };
-        let floors: Vec<FloorShare> = floors.map(share).collect();
+    /// An element on a row.
+    fn on((place, of): (ElementOf, NetStorey), row: Row, lift: Lift) -> Element {
         Element {
             place,
             of,
@@ -137,10 +117,7 @@ impl Element {
             lost: (1.0 - of.ratio) * of.stiffness,
             critical: None,
             collapse: None,
-            oscillating: OscillatorRows::of(structure, &row),
             row,
-            share_of_ground: share_of_ground(&floors, structure),
-            floors,
             lift,
         }
     }
@@ -148,7 +125,7 @@ impl Element {
     /// The element at the start of a run, from displacements and velocities of all floors: beyond its yield drift it has been
     /// pushed there slowly.
     pub(crate) fn at_start(&self, [displacements, velocities]: &[Vec<f64>; 2]) -> Storey {
-        let (drift, rate) = (self.over_floors(displacements).0, self.over_floors(velocities).0);
+        let [drift, rate] = [displacements, velocities].map(|motion| self.drift(Coordinates::Floors, motion));
         if drift.abs() < self.limit {
             return Storey::default();
         }
@@ -158,87 +135,15 @@ impl Element {
         Storey { turned, plastic, furthest: plastic.abs(), ..Storey::default() }
     }
 
-    /// Its drift in a motion of all floors, and the sum of the magnitudes that it is made of.
-    #[inline(always)]
-    fn over_floors(&self, motion: &[f64]) -> (f64, f64) {
-        self.floors.iter().fold((0.0, 0.0), |(sum, size), floor| {
-            let part = floor.weight * motion[floor.lane];
-            (sum + part, size + part.abs())
-        })
-    }
-
     /// The row of its drift in flights.
     pub(crate) fn in_flight(&self) -> FlightRow<'_> {
-        FlightRow::of(&self.row, self.oscillating.as_ref())
-    }
-
-    /// The drift at the base of a step, and the sum of the magnitudes that it is made of.
-    pub(crate) fn drift_at(&self, base: &Base) -> (f64, f64) {
-        let (coordinates, motion) = (base.coordinates, (&base.q[..], &base.v[..]));
-        match base.oscillates {
-            true => (self.in_flight().value(motion), self.in_flight().size(motion)),
-            false => (self.drift(coordinates, &base.q), self.size(coordinates, &base.q)),
-        }
+        self.row.in_flight()
     }
 
     /// Drift, or its rate, in a motion.
     #[inline(always)]
     pub(crate) fn drift(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        match coordinates {
-            Coordinates::Modes => dot(&self.row, motion),
-            Coordinates::Floors => self.over_floors(motion).0,
-        }
-    }
-
-    /// Drift or its rate, set to 0 where it is no more than rounding of what it is made of.
-    pub(crate) fn beyond_rounding(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        match coordinates {
-            Coordinates::Modes => difference(&self.row, motion).0,
-            Coordinates::Floors => {
-                let (drift, size) = self.over_floors(motion);
-                beyond_rounding(drift, size)
-            }
-        }
-    }
-
-    /// Writes the series of the drift; returns the sum of the magnitudes of all that was added up, each term times its
-    /// factor, m.
-    pub(crate) fn project(
-        &self,
-        coordinates: Coordinates,
-        series: &MotionSeries,
-        factors: &[f64],
-        out: &mut Coefficients,
-    ) -> f64 {
-        if coordinates == Coordinates::Modes {
-            return series.project(&self.row, factors, out);
-        }
-        let mut sum = 0.0;
-        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
-            let (drift, size) = self.over_floors(series.term(n));
-            *out = beyond_rounding(drift, size);
-            sum += size * factor.abs();
-        }
-        sum
-    }
-
-    /// Sum of the magnitudes that a drift is made of, from those of the motion.
-    pub(crate) fn size(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        match coordinates {
-            Coordinates::Modes => difference(&self.row, motion).1,
-            Coordinates::Floors => self.over_floors(motion).1,
-        }
-    }
-
-    /// Adds to accelerations those by a force, N, along its row: one that pushes the floors of a storey apart.
-    #[inline(always)]
-    pub(crate) fn push_apart(&self, coordinates: Coordinates, force: f64, acceleration: &mut [f64]) {
-        match coordinates {
-            Coordinates::Modes => {
-                acceleration.iter_mut().zip(&self.row).for_each(|(acceleration, row)| *acceleration += row * force);
-            }
-            Coordinates::Floors => self.floors.iter().for_each(|floor| acceleration[floor.lane] -= floor.push * force),
-        }
+        self.row.value(coordinates, motion)
     }
 
     /// Adds the displacements at rest by a plastic drift, m.
@@ -249,11 +154,6 @@ impl Element {
     /// The displacement of a floor at rest per unit of its plastic drift.
     pub(crate) fn moves_floor(&self, lane: usize) -> f64 {
         self.lift.of_floor(lane)
-    }
-
-    /// Minus the acceleration of its drift by that of the ground.
-    pub(crate) fn share_of_ground(&self) -> f64 {
-        self.share_of_ground
     }
 
     /// Makes displacements relative to the position of rest relative to that after the plastic drift has changed.

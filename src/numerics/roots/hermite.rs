@@ -43,7 +43,13 @@ impl End {
 
 /// Upper bound over 0..=x of a function from its values and slopes at both ends and the bound on its fourth derivative.
 pub(crate) fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
-    highest_of_cubic((value, slope), (end, end_slope), x) + (x * x) * (x * x) / 384.0 * fourth
+    highest_of_cubic((value, slope), (end, end_slope), x) + deviation(x, fourth)
+}
+
+/// Bound on the distance of a function from its cubic over 0..=h, where its fourth derivative is at most `fourth`.
+#[inline(always)]
+pub(crate) fn deviation(h: f64, fourth: f64) -> f64 {
+    (h * h) * (h * h) / 384.0 * fourth
 }
 
 /// Whether a function may have a local maximum above `known` in 0..=x, from its values and slopes at both ends and a

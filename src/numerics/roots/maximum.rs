@@ -20,11 +20,7 @@ pub(crate) fn maximum_above(
         End { x: end, value: reading.value, slope: reading.slope, fourth: reading.fourth },
     );
     let mut best = (f64::NAN, known);
-    for end in [a, b] {
-        if end.value > best.1 {
-            best = (end.x, end.value);
-        }
-    }
+    raise_to_ends([a, b], &mut best);
     let (least, most) = b.slopes_from(a);
     if least <= 0.0 && most >= 0.0 && b.upper_bound_from(a) > best.1 {
         let mut terms = Terms::empty();
@@ -36,13 +32,18 @@ pub(crate) fn maximum_above(
     best.0.is_finite().then_some(best)
 }
 
-/// Raises `best` = (x, value) to the maximum over a piece; an excess below `noise` is rounding.
-fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f64, f64)) {
-    for end in [a, b] {
+/// Raises `best` = (x, value) to the values at both ends of a piece.
+fn raise_to_ends(ends: [End; 2], best: &mut (f64, f64)) {
+    for end in ends {
         if end.value > best.1 {
             *best = (end.x, end.value);
         }
     }
+}
+
+/// Raises `best` = (x, value) to the maximum over a piece; an excess below `noise` is rounding.
+fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f64, f64)) {
+    raise_to_ends([a, b], best);
     let upper_bound = b.upper_bound_from(a);
     // An excess within rounding would be halved for ever.
     if upper_bound <= best.1 + noise || !upper_bound.is_finite() || b.x - a.x < NARROWEST {

@@ -13,5 +13,5 @@ mod terms;
 mod tests;
 
 pub(crate) use crossing::first_upcrossing;
-pub(crate) use hermite::{highest_of_cubic, may_turn_above, upper_bound};
+pub(crate) use hermite::{deviation, highest_of_cubic, may_turn_above, upper_bound};
 pub(crate) use maximum::{maximum_above, roughly};
