@@ -25,7 +25,7 @@ impl Table {
         }
         let Some(Slip { force, ratio }) = link.slip else { return };
         let about = format!("force of the spring at which the link {meeting} first slips");
-        self.add(Parameter::SlipForce(l), &format!("link[{}].slip_force", l + 1), (NEWTON, force), &about);
+        self.add(Parameter::SlipForce(l), format!("link[{}].slip_force", l + 1), (NEWTON, force), about);
         let scale = (ONE, if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
         let about = "stiffness while it slips over that before, of the link";
         let mut rows = self.of_meeting("link", l, meeting);
@@ -76,7 +76,7 @@ impl Table {
         for mode in 0..buildings().map(|building| Places::of(building).count()).sum() {
             let (i, scale) = (mode + 1, (Type::Real(Unit::Hertz), typical));
             let about = format!("natural frequency {i} of the buildings {with}, without damping");
-            self.add(Calculated::SystemFrequency(mode), &format!("system.frequency[{i}]"), scale, &about);
+            self.add(Calculated::SystemFrequency(mode), format!("system.frequency[{i}]"), scale, about);
         }
     }
 }

@@ -60,7 +60,13 @@ impl Table {
     }
 
     /// A row with what follows from what it stands for: when it changes, and the least that it can be.
-    pub(super) fn add(&mut self, slot: impl Into<Slot>, name: &str, (ty, nominal): Scale, about: &str) -> &mut Row {
+    pub(super) fn add(
+        &mut self,
+        slot: impl Into<Slot>,
+        name: impl Into<String>,
+        (ty, nominal): Scale,
+        about: impl Into<String>,
+    ) -> &mut Row {
         let slot = slot.into();
         let variability = match slot {
             Slot::Parameter(_) | Slot::Calculated(_) => Variability::Fixed,
@@ -71,7 +77,7 @@ impl Table {
             Slot::Input(_) | Slot::Output(_) => Variability::Discrete,
         };
         let has_nominal = matches!(ty, Type::Real(_)) && nominal > 0.0 && nominal.is_finite();
-        let (name, description) = (name.to_owned(), about.to_owned());
+        let (name, description) = (name.into(), about.into());
         let (min, nominal) = (least(slot), has_nominal.then_some(nominal));
         let place = self.rows.len();
         self.rows.push(Row { name, slot, variability, ty, min, max: None, nominal, description });
@@ -83,9 +89,11 @@ impl Part<'_> {
     /// A row; `#` in what is said of it stands for the number of the thing.
     pub(super) fn add(&mut self, slot: impl Into<Slot>, name: &str, scale: Scale, about: &str) -> &mut Row {
         let Part { table, thing, number, about: of } = self;
-        let [index, number] = number.map_or([const { String::new() }; 2], |n| [format!("[{n}]"), n.to_string()]);
-        let about = about.replace('#', &number) + of;
-        table.add(slot, &format!("{thing}.{name}{index}"), scale, &about)
+        let (name, about) = match number {
+            Some(n) => (format!("{thing}.{name}[{n}]"), about.replace('#', &n.to_string())),
+            None => (format!("{thing}.{name}"), about.to_owned()),
+        };
+        table.add(slot, name, scale, about + of)
     }
 }
 

@@ -83,7 +83,7 @@ impl Table {
         };
         let about =
             format!("path of another record file (CSV or AT2) to run instead, {scaled}; empty: the one inside the FMU");
-        self.add(Parameter::GroundRecord, "ground.record", (Type::String, 0.0), &about);
+        self.add(Parameter::GroundRecord, "ground.record", (Type::String, 0.0), about);
     }
 
     fn add_floor(&mut self, building: &Building, side: Side, floor: usize, floor_forces: bool) {
@@ -313,7 +313,7 @@ impl Table {
                 _ => "",
             };
             let (name, scale) = (format!("energy.{}", term.name()), (JOULE, mass * VELOCITY * VELOCITY));
-            self.add(Output::Energy(term), &name, scale, &format!("{about}{links}"));
+            self.add(Output::Energy(term), name, scale, format!("{about}{links}"));
         }
         let about = "imbalance of the energy account relative to the largest magnitude of its terms so far";
         self.add(Output::Energy(E::Residual), "energy.residual", RATIO, about);

@@ -1,21 +1,21 @@
 //! Reading the solution at the communication time from the dense solution of the planned step.
 
-pub(super) mod energy;
-pub(super) mod energy_rates;
+mod energy;
+mod energy_rates;
 pub(super) mod feedthrough;
-pub(super) mod floors;
+mod floors;
 mod foundation;
-pub(super) mod frequencies;
+mod frequencies;
 pub(super) mod instant;
-pub(super) mod known;
+mod known;
 mod links;
 pub(super) mod outputs;
-pub(super) mod peaks;
+mod peaks;
 pub(super) mod point;
 pub(super) mod point_rates;
-pub(super) mod rates;
+mod rates;
 mod storeys;
-pub(super) mod yielding;
+mod yielding;
 
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::storey::Storey;
