@@ -2,7 +2,8 @@
 //!
 //! Variables are named here by their position from 1 in FMI 2.0, by their value reference in FMI 3.0.
 
-use super::writer::Xml;
+use super::variable::borrowed;
+use super::writer::{Xml, branch, leaf};
 use crate::FmiVersion;
 use crate::scene::Scene;
 use crate::variables::{Dependence, Row, Slot, Table, at_communication_points, at_start};
@@ -10,20 +11,18 @@ use std::io;
 
 /// Writes the element. A co-simulation FMU need not declare states, so there are no derivatives.
 pub(super) fn write(xml: &mut Xml, scene: &Scene, table: &Table, version: FmiVersion) -> io::Result<()> {
-    xml.create_element("ModelStructure").write_inner_content(|xml| match version {
+    branch(xml, "ModelStructure", [], |xml| match version {
         FmiVersion::V2 => {
             let list = Unknowns { table, element: "Unknown", reference: "index", first: 1 };
-            xml.create_element("Outputs").write_inner_content(|xml| list.outputs(xml, scene))?;
-            xml.create_element("InitialUnknowns").write_inner_content(|xml| list.initial_unknowns(xml, scene))?;
-            Ok(())
+            branch(xml, "Outputs", [], |xml| list.outputs(xml, scene))?;
+            branch(xml, "InitialUnknowns", [], |xml| list.initial_unknowns(xml, scene))
         }
         FmiVersion::V3 => {
             let list = |element| Unknowns { table, element, reference: "valueReference", first: 0 };
             list("Output").outputs(xml, scene)?;
             list("InitialUnknown").initial_unknowns(xml, scene)
         }
-    })?;
-    Ok(())
+    })
 }
 
 /// How a version writes what is computed.
@@ -58,23 +57,19 @@ impl Unknowns<'_> {
         is_unknown: impl Fn(&Row) -> bool,
         depends: impl Fn(Slot, Slot) -> Option<Dependence>,
     ) -> io::Result<()> {
-        let numbered = || (self.first..).zip(&self.table.rows);
+        let numbered = || (self.first..).zip(&self.table.rows).map(|(number, row)| (number.to_string(), row));
         let is_known = |row: &Row| matches!(row.slot, Slot::Input(_) | Slot::Parameter(_));
-        let knowns = numbered().filter(|(_, row)| is_known(row)).map(|(number, row)| (number.to_string(), row.slot));
+        let knowns = numbered().filter(|(_, row)| is_known(row)).map(|(number, row)| (number, row.slot));
         let knowns: Vec<(String, Slot)> = knowns.collect();
         for (number, unknown) in numbered().filter(|(_, row)| is_unknown(row)) {
             let known =
                 knowns.iter().filter_map(|(number, slot)| Some((number.as_str(), depends(unknown.slot, *slot)?)));
             let (known, kinds): (Vec<&str>, Vec<Dependence>) = known.unzip();
-            let mut element = xml
-                .create_element(self.element)
-                .with_attribute((self.reference, number.to_string().as_str()))
-                .with_attribute(("dependencies", known.join(" ").as_str()));
+            let mut attributes = vec![(self.reference, number), ("dependencies", known.join(" "))];
             if kinds.contains(&Dependence::Fixed) {
-                let kinds = kinds.into_iter().map(kind).collect::<Vec<_>>().join(" ");
-                element = element.with_attribute(("dependenciesKind", kinds.as_str()));
+                attributes.push(("dependenciesKind", kinds.into_iter().map(kind).collect::<Vec<_>>().join(" ")));
             }
-            element.write_empty()?;
+            leaf(xml, self.element, borrowed(&attributes))?;
         }
         Ok(())
     }

@@ -28,8 +28,12 @@ pub(super) fn identity(reference: u32, row: &Row, version: FmiVersion) -> Attrib
 
 /// Its limits and its typical magnitude.
 pub(super) fn limits(row: &Row) -> Attributes {
-    let limits = [("min", row.min), ("max", row.max), ("nominal", row.nominal)];
-    limits.into_iter().filter_map(|(name, value)| Some((name, number(value?)))).collect()
+    known([("min", row.min), ("max", row.max), ("nominal", row.nominal)])
+}
+
+/// Those of some numbers that there are.
+pub(super) fn known<const N: usize>(numbers: [(&'static str, Option<f64>); N]) -> Attributes {
+    numbers.into_iter().filter_map(|(name, value)| Some((name, number(value?)))).collect()
 }
 
 /// A start value.

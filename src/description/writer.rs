@@ -2,9 +2,29 @@
 
 use quick_xml::Writer;
 use std::borrow::Cow;
+use std::io;
 
 /// A document that is being written.
 pub(super) type Xml = Writer<Vec<u8>>;
+
+/// Writes an element that has nothing in it.
+pub(super) fn leaf<'a>(
+    xml: &mut Xml,
+    name: &'static str,
+    attributes: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> io::Result<()> {
+    xml.create_element(name).with_attributes(attributes).write_empty().map(|_| ())
+}
+
+/// Writes an element around others.
+pub(super) fn branch<'a>(
+    xml: &mut Xml,
+    name: &'static str,
+    attributes: impl IntoIterator<Item = (&'a str, &'a str)>,
+    content: impl FnOnce(&mut Xml) -> io::Result<()>,
+) -> io::Result<()> {
+    xml.create_element(name).with_attributes(attributes).write_inner_content(content).map(|_| ())
+}
 
 /// The shortest decimal that reads back as the same number, whole numbers without a point.
 pub(super) fn number(value: f64) -> String {

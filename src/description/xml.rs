@@ -2,12 +2,13 @@
 //! the same in both.
 
 use super::log_category::Category;
-use super::writer::{Xml, number, text};
+use super::variable::{borrowed, known};
+use super::writer::{Xml, branch, leaf, number, text};
 use super::{model_structure, xml2, xml3};
 use crate::FmiVersion;
 use crate::engine::Inputs;
 use crate::scene::Package;
-use crate::variables::{Settings, Slot, Table, Type, Unit, Value};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Settings, Slot, Table, Type, Unit, Value};
 use quick_xml::Writer;
 use std::io;
 
@@ -25,37 +26,33 @@ pub(super) fn document(package: &Package, table: &Table, version: FmiVersion, gu
 
 fn write_document(xml: &mut Xml, package: &Package, table: &Table, version: FmiVersion, guid: &str) -> io::Result<()> {
     let scene = &package.scene;
-    let name_of_guid = match version {
-        FmiVersion::V2 => "guid",
-        FmiVersion::V3 => "instantiationToken",
+    let highest_derivative = HIGHEST_OUTPUT_DERIVATIVE.to_string();
+    let (name_of_guid, co_simulation) = match version {
+        FmiVersion::V2 => ("guid", xml2::co_simulation(&highest_derivative)),
+        FmiVersion::V3 => ("instantiationToken", xml3::co_simulation(&highest_derivative)),
     };
     xml.write_event(quick_xml::events::Event::Decl(quick_xml::events::BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    xml.create_element("fmiModelDescription")
-        .with_attributes([
-            ("fmiVersion", version.name()),
-            ("modelName", &scene.name),
-            (name_of_guid, guid),
-            ("description", &text(&scene.description)),
-            ("generationTool", concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))),
-            ("variableNamingConvention", "structured"),
-        ])
-        .write_inner_content(|xml| {
-            let units = used_units(table, version);
-            match version {
-                FmiVersion::V2 => xml2::write_co_simulation(xml, &scene.name)?,
-                FmiVersion::V3 => xml3::write_co_simulation(xml, &scene.name)?,
-            }
-            xml.create_element("UnitDefinitions")
-                .write_inner_content(|xml| units.iter().try_for_each(|unit| write_unit(xml, *unit)))?;
-            if version == FmiVersion::V3 {
-                xml3::write_types(xml, &units)?;
-            }
-            write_log_categories(xml)?;
-            write_default_experiment(xml, package)?;
-            write_variables(xml, package, table, version)?;
-            model_structure::write(xml, scene, table, version)
-        })?;
-    Ok(())
+    let attributes = [
+        ("fmiVersion", version.name()),
+        ("modelName", &scene.name),
+        (name_of_guid, guid),
+        ("description", &text(&scene.description)),
+        ("generationTool", concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))),
+        ("variableNamingConvention", "structured"),
+    ];
+    branch(xml, "fmiModelDescription", attributes, |xml| {
+        let units = used_units(table, version);
+        let identifier = [("modelIdentifier", scene.name.as_str())];
+        leaf(xml, "CoSimulation", identifier.into_iter().chain(co_simulation))?;
+        branch(xml, "UnitDefinitions", [], |xml| units.iter().try_for_each(|unit| write_unit(xml, *unit)))?;
+        if version == FmiVersion::V3 {
+            xml3::write_types(xml, &units)?;
+        }
+        write_log_categories(xml)?;
+        write_default_experiment(xml, package)?;
+        write_variables(xml, package, table, version)?;
+        model_structure::write(xml, scene, table, version)
+    })
 }
 
 /// The units of the numbers, in FMI 3.0 that of the time, too.
@@ -67,73 +64,50 @@ fn used_units(table: &Table, version: FmiVersion) -> Vec<Unit> {
 
 fn write_unit(xml: &mut Xml, unit: Unit) -> io::Result<()> {
     let info = unit.info();
-    let element = xml.create_element("Unit").with_attribute(("name", info.name));
-    let Some(base) = info.base else {
-        element.write_empty()?;
-        return Ok(());
-    };
-    element.write_inner_content(|xml| {
-        let powers = base.iter().map(|(unit, power)| (*unit, power.to_string()));
-        let powers = powers.collect::<Vec<_>>();
-        let attributes = powers.iter().map(|(unit, power)| (*unit, power.as_str()));
-        xml.create_element("BaseUnit").with_attributes(attributes).write_empty()?;
-        if let Some((name, factor)) = info.display {
-            let factor = number(factor);
-            let attributes = [("name", name), ("factor", &factor)];
-            xml.create_element("DisplayUnit").with_attributes(attributes).write_empty()?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    let name = [("name", info.name)];
+    let Some(base) = info.base else { return leaf(xml, "Unit", name) };
+    branch(xml, "Unit", name, |xml| {
+        let powers = base.iter().map(|(unit, power)| (*unit, power.to_string())).collect();
+        leaf(xml, "BaseUnit", borrowed(&powers))?;
+        let Some((name, factor)) = info.display else { return Ok(()) };
+        leaf(xml, "DisplayUnit", [("name", name), ("factor", &number(factor))])
+    })
 }
 
 fn write_log_categories(xml: &mut Xml) -> io::Result<()> {
-    xml.create_element("LogCategories").write_inner_content(|xml| {
-        let all = Category::ALL.map(|category| (category.name(), category.description()));
-        for (name, description) in all.into_iter().chain([Category::ALL_MESSAGES]) {
-            let attributes = [("name", name), ("description", description)];
-            xml.create_element("Category").with_attributes(attributes).write_empty()?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    let all = Category::ALL.map(|category| (category.name(), category.description()));
+    branch(xml, "LogCategories", [], |xml| {
+        let mut all = all.into_iter().chain([Category::ALL_MESSAGES]);
+        all.try_for_each(|(name, about)| leaf(xml, "Category", [("name", name), ("description", about)]))
+    })
 }
 
 fn write_default_experiment(xml: &mut Xml, package: &Package) -> io::Result<()> {
     let stop = package.stop_time();
-    let mut element = xml.create_element("DefaultExperiment").with_attribute(("startTime", "0"));
-    if let Some(stop) = stop {
-        element = element.with_attribute(("stopTime", number(stop).as_str()));
-    }
-    let tolerance = number(package.scene.solver.relative_tolerance);
-    element = element.with_attribute(("tolerance", tolerance.as_str()));
-    if stop.is_none_or(|stop| stop > STEP_SIZE) {
-        element = element.with_attribute(("stepSize", number(STEP_SIZE).as_str()));
-    }
-    element.write_empty()?;
-    Ok(())
+    let step = stop.is_none_or(|stop| stop > STEP_SIZE).then_some(STEP_SIZE);
+    let tolerance = Some(package.scene.solver.relative_tolerance);
+    let numbers = [("startTime", Some(0.0)), ("stopTime", stop), ("tolerance", tolerance), ("stepSize", step)];
+    leaf(xml, "DefaultExperiment", borrowed(&known(numbers)))
 }
 
 /// The start values are read from fresh settings and inputs, as a new instance has them.
 fn write_variables(xml: &mut Xml, package: &Package, table: &Table, version: FmiVersion) -> io::Result<()> {
     let record = package.record.as_ref().map(|record| record.record.clone());
     let (settings, inputs) = (Settings::new(package.scene.clone(), record), Inputs::new(&package.scene));
-    xml.create_element("ModelVariables").write_inner_content(|xml| {
+    branch(xml, "ModelVariables", [], |xml| {
         if version == FmiVersion::V3 {
             xml3::write_time(xml, table.time_reference())?;
         }
-        for (reference, row) in table.iter() {
+        table.iter().try_for_each(|(reference, row)| {
             let start = match row.slot {
                 Slot::Input(input) => Some(Value::Real(inputs.get(input).at(0.0))),
                 Slot::Parameter(parameter) => Some(settings.read(parameter)),
                 Slot::Calculated(_) | Slot::Output(_) => None,
             };
             match version {
-                FmiVersion::V2 => xml2::write_variable(xml, reference, row, start)?,
-                FmiVersion::V3 => xml3::write_variable(xml, reference, row, start)?,
+                FmiVersion::V2 => xml2::write_variable(xml, reference, row, start),
+                FmiVersion::V3 => xml3::write_variable(xml, reference, row, start),
             }
-        }
-        Ok(())
-    })?;
-    Ok(())
+        })
+    })
 }

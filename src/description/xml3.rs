@@ -2,58 +2,51 @@
 //! with; units by the declared type, as some do not know them on a variable.
 
 use super::variable::{borrowed, identity, limits, start};
-use super::writer::Xml;
+use super::writer::{Xml, branch, leaf};
 use crate::FmiVersion;
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Slot, Type, Unit, Value, Variability};
+use crate::variables::{Row, Slot, Type, Unit, Value, Variability};
 use std::io;
 
 /// The unit of the time.
 pub(super) const TIME: Unit = Unit::Second;
 
-pub(super) fn write_co_simulation(xml: &mut Xml, identifier: &str) -> io::Result<()> {
-    xml.create_element("CoSimulation")
-        .with_attributes([
-            ("modelIdentifier", identifier),
-            ("canGetAndSetFMUState", "true"),
-            ("canSerializeFMUState", "true"),
-            ("providesDirectionalDerivatives", "true"),
-            ("providesAdjointDerivatives", "true"),
-            ("canHandleVariableCommunicationStepSize", "true"),
-            ("maxOutputDerivativeOrder", &HIGHEST_OUTPUT_DERIVATIVE.to_string()),
-            ("providesIntermediateUpdate", "true"),
-            ("mightReturnEarlyFromDoStep", "true"),
-            ("hasEventMode", "true"),
-        ])
-        .write_empty()?;
-    Ok(())
+/// What an FMU can do.
+pub(super) fn co_simulation(highest_derivative: &str) -> Vec<(&str, &str)> {
+    vec![
+        ("canGetAndSetFMUState", "true"),
+        ("canSerializeFMUState", "true"),
+        ("providesDirectionalDerivatives", "true"),
+        ("providesAdjointDerivatives", "true"),
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("maxOutputDerivativeOrder", highest_derivative),
+        ("providesIntermediateUpdate", "true"),
+        ("mightReturnEarlyFromDoStep", "true"),
+        ("hasEventMode", "true"),
+    ]
 }
 
 /// A type for each unit, called after what is measured in it.
 pub(super) fn write_types(xml: &mut Xml, units: &[Unit]) -> io::Result<()> {
-    xml.create_element("TypeDefinitions").write_inner_content(|xml| {
-        for info in units.iter().map(|unit| unit.info()) {
+    branch(xml, "TypeDefinitions", [], |xml| {
+        units.iter().map(|unit| unit.info()).try_for_each(|info| {
             let attributes = [("name", info.quantity), ("quantity", info.quantity), ("unit", info.name)];
             let display = info.display.map(|(display, _)| ("displayUnit", display));
-            xml.create_element("Float64Type").with_attributes(attributes).with_attributes(display).write_empty()?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+            leaf(xml, "Float64Type", attributes.into_iter().chain(display))
+        })
+    })
 }
 
 /// The time, which is a variable that masters may read.
 pub(super) fn write_time(xml: &mut Xml, reference: u32) -> io::Result<()> {
-    xml.create_element("Float64")
-        .with_attributes([
-            ("name", "time"),
-            ("valueReference", &reference.to_string()),
-            ("description", "time"),
-            ("causality", "independent"),
-            ("variability", "continuous"),
-            ("declaredType", TIME.info().quantity),
-        ])
-        .write_empty()?;
-    Ok(())
+    let attributes = [
+        ("name", "time"),
+        ("valueReference", &reference.to_string()),
+        ("description", "time"),
+        ("causality", "independent"),
+        ("variability", "continuous"),
+        ("declaredType", TIME.info().quantity),
+    ];
+    leaf(xml, "Float64", attributes)
 }
 
 pub(super) fn write_variable(xml: &mut Xml, reference: u32, row: &Row, value: Option<Value<'_>>) -> io::Result<()> {
@@ -66,20 +59,10 @@ pub(super) fn write_variable(xml: &mut Xml, reference: u32, row: &Row, value: Op
     if is_exchanged && row.variability == Variability::Continuous {
         attributes.push(("intermediateUpdate", "true".to_owned()));
     }
-    let value = value.map(start);
-    let element = xml.create_element(row.ty.name(FmiVersion::V3));
-    match (row.ty, value) {
-        (Type::String, Some(value)) => {
-            let element = element.with_attributes(borrowed(&attributes));
-            element.write_inner_content(|xml| {
-                xml.create_element("Start").with_attribute(("value", value.as_str())).write_empty()?;
-                Ok(())
-            })?;
-        }
-        (_, value) => {
-            attributes.extend(value.map(|value| ("start", value)));
-            element.with_attributes(borrowed(&attributes)).write_empty()?;
-        }
+    let (name, value) = (row.ty.name(FmiVersion::V3), value.map(start));
+    if let (Type::String, Some(value)) = (row.ty, &value) {
+        return branch(xml, name, borrowed(&attributes), |xml| leaf(xml, "Start", [("value", value.as_str())]));
     }
-    Ok(())
+    attributes.extend(value.map(|value| ("start", value)));
+    leaf(xml, name, borrowed(&attributes))
 }

@@ -71,8 +71,16 @@ impl Slave {
     /// and parameters that the scene's rules refuse.
     pub fn set<'v>(&mut self, references: &[u32], value: impl Fn(usize) -> Value<'v>) -> Result<(), Refusal> {
         let pairs = || references.iter().enumerate().map(|(i, &reference)| (reference, value(i)));
-        let mut problems: Vec<_> = pairs().filter_map(|(reference, value)| self.refuse(reference, value)).collect();
-        let changed = self.changed_settings(pairs(), &mut problems);
+        let (mut problems, mut changed) = (Vec::new(), None);
+        for (reference, value) in pairs() {
+            if let Some(problem) = self.refuse(reference, value) {
+                problems.push(problem);
+            } else if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) {
+                let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
+                note(settings.write(parameter, value), &mut problems);
+            }
+        }
+        note(changed.as_ref().map_or(Ok(()), Settings::check_one_by_one), &mut problems);
         Refusal::unless_empty(problems)?;
         if let Some(changed) = changed {
             self.settings = Arc::new(changed);
@@ -115,47 +123,16 @@ impl Slave {
         if row.ty.name(version) != found {
             return Some(self.wrong_type(reference, found));
         }
-        match (row.slot, self.phase) {
-            (Slot::Input(_), _) if !self.takes_inputs() => {
-                return Some(format!("{}: the step asks for no inputs now", row.name));
-            }
-            (Slot::Input(_), _) | (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => {}
-            (Slot::Parameter(_), _) => {
-                return Some(format!(
-                    "{}: a fixed parameter can only be set before the end of initialisation",
-                    row.name
-                ));
-            }
-            (Slot::Calculated(_) | Slot::Output(_), _) => {
-                return Some(format!("{}: computed by the FMU, it cannot be set", row.name));
-            }
-        }
-        match (row.slot, value) {
-            (Slot::Input(_), Value::Real(value)) => row.problem(value),
-            _ => None,
-        }
+        let problem = match (row.slot, self.phase) {
+            (Slot::Input(_), _) if !self.takes_inputs() => "the step asks for no inputs now",
+            (Slot::Input(_), _) => return row.problem(value.real()?),
+            (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => return None,
+            (Slot::Parameter(_), _) => "a fixed parameter can only be set before the end of initialisation",
+            (Slot::Calculated(_) | Slot::Output(_), _) => "computed by the FMU, it cannot be set",
+        };
+        Some(format!("{}: {problem}", row.name))
     }
 
-    /// The settings with the parameters among the pairs, `None` where there is none, and what is wrong with them.
-    fn changed_settings<'v>(
-        &self,
-        pairs: impl Iterator<Item = (u32, Value<'v>)>,
-        problems: &mut Vec<String>,
-    ) -> Option<Settings> {
-        let mut changed = None;
-        for (reference, value) in pairs {
-            let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) else { continue };
-            if self.refuse(reference, value).is_none() {
-                let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
-                note(settings.write(parameter, value), problems);
-            }
-        }
-        note(changed.as_ref().map_or(Ok(()), Settings::check_one_by_one), problems);
-        changed
-    }
-}
-
-impl Slave {
     /// That there is no such variable.
     pub(super) fn unknown(&self, reference: u32) -> String {
         let count = self.table.time_reference() + u32::from(self.interface.version() == FmiVersion::V3);

@@ -168,31 +168,37 @@ impl Slave {
     }
 
     fn refuse_unknown(&self, reference: u32) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
-        let (is_unknown, expected) = match self.phase {
-            Phase::Initialization => {
-                (matches!(row.slot, Slot::Output(_) | Slot::Calculated(_)), "an output or a calculated parameter")
-            }
-            _ => (matches!(row.slot, Slot::Output(_)), "an output"),
-        };
-        match row.ty {
-            Type::Real(_) if is_unknown => None,
-            _ => Some(format!("unknown {}: expected {expected} of type {}", row.name, self.real())),
-        }
+        let is_unknown =
+            |slot, at_start| matches!(slot, Slot::Output(_)) || at_start && matches!(slot, Slot::Calculated(_));
+        self.question(reference, "unknown", is_unknown, ["an output", " or a calculated parameter"]).err()
     }
 
     fn refuse_known(&self, reference: u32, change: f64) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
-        let (is_known, expected) = match self.phase {
-            Phase::Initialization => {
-                (matches!(row.slot, Slot::Input(_) | Slot::Parameter(_)), "an input or a parameter")
-            }
-            _ => (matches!(row.slot, Slot::Input(_)), "an input"),
-        };
+        let is_known =
+            |slot, at_start| matches!(slot, Slot::Input(_)) || at_start && matches!(slot, Slot::Parameter(_));
+        match self.question(reference, "known", is_known, ["an input", " or a parameter"]) {
+            Ok(_) if change.is_finite() => None,
+            Ok(name) => Some(format!("{name}: seed {change}: expected a finite number")),
+            Err(problem) => Some(problem),
+        }
+    }
+
+    /// The name of a variable that such a question can be about, or what is expected: in initialization mode some more.
+    fn question(
+        &self,
+        reference: u32,
+        role: &str,
+        is_one: impl Fn(Slot, bool) -> bool,
+        [expected, more]: [&str; 2],
+    ) -> Result<&str, String> {
+        let row = self.table.row(reference).ok_or_else(|| self.unknown(reference))?;
+        let at_start = self.phase == Phase::Initialization;
         match row.ty {
-            Type::Real(_) if is_known && change.is_finite() => None,
-            Type::Real(_) if is_known => Some(format!("{}: seed {change}: expected a finite number", row.name)),
-            _ => Some(format!("known {}: expected {expected} of type {}", row.name, self.real())),
+            Type::Real(_) if is_one(row.slot, at_start) => Ok(&row.name),
+            _ => {
+                let more = if at_start { more } else { "" };
+                Err(format!("{role} {}: expected {expected}{more} of type {}", row.name, self.real()))
+            }
         }
     }
 }

@@ -43,49 +43,6 @@ impl Phase {
     }
 }
 
-/// A function that takes an instance, but for the one that frees it, which is always allowed: by its name in FMI 2.0, or the
-/// function of FMI 3.0 that took its place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names of the standard")]
-pub enum Call {
-    SetDebugLogging,
-    SetupExperiment,
-    EnterInitializationMode,
-    ExitInitializationMode,
-    EnterEventMode,
-    EnterStepMode,
-    UpdateDiscreteStates,
-    Terminate,
-    Reset,
-    GetReal,
-    GetInteger,
-    GetBoolean,
-    GetString,
-    SetReal,
-    SetInteger,
-    SetBoolean,
-    SetString,
-    GetFMUstate,
-    SetFMUstate,
-    FreeFMUstate,
-    SerializedFMUstateSize,
-    SerializeFMUstate,
-    DeSerializeFMUstate,
-    GetDirectionalDerivative,
-    GetAdjointDerivative,
-    SetRealInputDerivatives,
-    GetRealOutputDerivatives,
-    DoStep,
-    CancelStep,
-    GetStatus,
-    GetRealStatus,
-    GetIntegerStatus,
-    GetBooleanStatus,
-    GetStringStatus,
-    /// A function of FMI 3.0 for something that these FMUs do not have, by its name.
-    NotOffered(&'static str),
-}
-
 use Phase::{Error, Event, Initialization, Instantiated, StepComplete, Terminated, Update};
 
 const ALWAYS: &[Phase] = &[Instantiated, Initialization, Event, StepComplete, Terminated, Error];
@@ -106,94 +63,77 @@ const NEVER: &[Phase] = &[];
 /// A row of a table: name of the C function, and phases in which it may be called.
 type Rule = (&'static str, &'static [Phase]);
 
-impl Call {
-    /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
-    pub const fn rule(self, version: FmiVersion) -> Rule {
-        match version {
-            FmiVersion::V2 => self.rule_2(),
-            FmiVersion::V3 => self.rule_3(),
-        }
-    }
+/// That of a version without such a function.
+const NONE: Rule = ("", NEVER);
 
-    const fn rule_2(self) -> Rule {
-        match self {
-            Call::SetDebugLogging => ("fmi2SetDebugLogging", ALWAYS),
-            Call::SetupExperiment => ("fmi2SetupExperiment", INSTANTIATED),
-            Call::EnterInitializationMode => ("fmi2EnterInitializationMode", INSTANTIATED),
-            Call::ExitInitializationMode => ("fmi2ExitInitializationMode", INITIALIZATION),
-            Call::Terminate => ("fmi2Terminate", STEP_COMPLETE),
-            Call::Reset => ("fmi2Reset", ALWAYS),
-            Call::GetReal => ("fmi2GetReal", FROM_INITIALIZATION),
-            Call::GetInteger => ("fmi2GetInteger", FROM_INITIALIZATION),
-            Call::GetBoolean => ("fmi2GetBoolean", FROM_INITIALIZATION),
-            Call::GetString => ("fmi2GetString", FROM_INITIALIZATION),
-            Call::SetReal => ("fmi2SetReal", BEFORE_THE_END),
-            Call::SetInteger => ("fmi2SetInteger", BEFORE_THE_END),
-            Call::SetBoolean => ("fmi2SetBoolean", BEFORE_THE_END),
-            Call::SetString => ("fmi2SetString", BEFORE_THE_END),
-            Call::GetFMUstate => ("fmi2GetFMUstate", ALWAYS),
-            Call::SetFMUstate => ("fmi2SetFMUstate", ALWAYS),
-            Call::FreeFMUstate => ("fmi2FreeFMUstate", ALWAYS),
-            Call::SerializedFMUstateSize => ("fmi2SerializedFMUstateSize", ALWAYS),
-            Call::SerializeFMUstate => ("fmi2SerializeFMUstate", ALWAYS),
-            Call::DeSerializeFMUstate => ("fmi2DeSerializeFMUstate", ALWAYS),
-            Call::GetDirectionalDerivative => ("fmi2GetDirectionalDerivative", FROM_INITIALIZATION),
-            Call::SetRealInputDerivatives => ("fmi2SetRealInputDerivatives", BEFORE_THE_END),
-            Call::GetRealOutputDerivatives => ("fmi2GetRealOutputDerivatives", AFTER_INITIALIZATION),
-            Call::DoStep => ("fmi2DoStep", STEP_COMPLETE),
-            Call::CancelStep => ("fmi2CancelStep", NEVER),
-            Call::GetStatus => ("fmi2GetStatus", STEPPED),
-            Call::GetRealStatus => ("fmi2GetRealStatus", STEPPED),
-            Call::GetIntegerStatus => ("fmi2GetIntegerStatus", STEPPED),
-            Call::GetBooleanStatus => ("fmi2GetBooleanStatus", STEPPED),
-            Call::GetStringStatus => ("fmi2GetStringStatus", STEPPED),
-            Call::EnterEventMode | Call::EnterStepMode | Call::UpdateDiscreteStates | Call::GetAdjointDerivative => {
-                ("", NEVER)
+/// Makes of the rows of the tables of both versions the calls, and of each call its rows.
+macro_rules! calls {
+    ($($call:ident: $of_2:expr, $of_3:expr;)+) => {
+        /// A function that takes an instance, but for the one that frees it, which is always allowed: by its name in
+        /// FMI 2.0, or the function of FMI 3.0 that took its place.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[expect(missing_docs, reason = "the names of the standard")]
+        pub enum Call {
+            $($call,)+
+            /// A function of FMI 3.0 for something that these FMUs do not have, by its name.
+            NotOffered(&'static str),
+        }
+
+        impl Call {
+            /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
+            pub const fn rule(self, version: FmiVersion) -> Rule {
+                match (self, version) {
+                    $((Call::$call, FmiVersion::V2) => $of_2, (Call::$call, FmiVersion::V3) => $of_3,)+
+                    (Call::NotOffered(name), _) => (name, NEVER),
+                }
             }
-            Call::NotOffered(name) => (name, NEVER),
         }
-    }
+    };
+}
 
-    const fn rule_3(self) -> Rule {
-        match self {
-            Call::SetDebugLogging => ("fmi3SetDebugLogging", ALWAYS),
-            Call::EnterInitializationMode => ("fmi3EnterInitializationMode", INSTANTIATED),
-            Call::ExitInitializationMode => ("fmi3ExitInitializationMode", INITIALIZATION),
-            Call::EnterEventMode => ("fmi3EnterEventMode", STEP_COMPLETE),
-            Call::EnterStepMode => ("fmi3EnterStepMode", EVENT),
-            Call::UpdateDiscreteStates => ("fmi3UpdateDiscreteStates", EVENT),
-            Call::Terminate => ("fmi3Terminate", EVENT_OR_STEP),
-            Call::Reset => ("fmi3Reset", ALWAYS),
-            Call::GetReal => ("fmi3GetFloat64", ALWAYS_TO_READ),
-            Call::GetInteger => ("fmi3GetInt32", ALWAYS_TO_READ),
-            Call::GetBoolean => ("fmi3GetBoolean", ALWAYS_TO_READ),
-            Call::GetString => ("fmi3GetString", ALWAYS_TO_READ),
-            Call::SetReal => ("fmi3SetFloat64", TO_SET),
-            Call::SetInteger => ("fmi3SetInt32", NEVER),
-            Call::SetBoolean => ("fmi3SetBoolean", NEVER),
-            Call::SetString => ("fmi3SetString", BEFORE_THE_END),
-            Call::GetFMUstate => ("fmi3GetFMUState", ALWAYS),
-            Call::SetFMUstate => ("fmi3SetFMUState", ALWAYS),
-            Call::FreeFMUstate => ("fmi3FreeFMUState", ALWAYS),
-            Call::SerializedFMUstateSize => ("fmi3SerializedFMUStateSize", ALWAYS),
-            Call::SerializeFMUstate => ("fmi3SerializeFMUState", ALWAYS),
-            Call::DeSerializeFMUstate => ("fmi3DeserializeFMUState", ALWAYS),
-            Call::GetDirectionalDerivative => ("fmi3GetDirectionalDerivative", FROM_INITIALIZATION),
-            Call::GetAdjointDerivative => ("fmi3GetAdjointDerivative", FROM_INITIALIZATION),
-            Call::GetRealOutputDerivatives => ("fmi3GetOutputDerivatives", FROM_STEPS_ON),
-            Call::DoStep => ("fmi3DoStep", STEP_COMPLETE),
-            Call::SetupExperiment
-            | Call::SetRealInputDerivatives
-            | Call::CancelStep
-            | Call::GetStatus
-            | Call::GetRealStatus
-            | Call::GetIntegerStatus
-            | Call::GetBooleanStatus
-            | Call::GetStringStatus => ("", NEVER),
-            Call::NotOffered(name) => (name, NEVER),
-        }
-    }
+calls! {
+    SetDebugLogging: ("fmi2SetDebugLogging", ALWAYS), ("fmi3SetDebugLogging", ALWAYS);
+    SetupExperiment: ("fmi2SetupExperiment", INSTANTIATED), NONE;
+    EnterInitializationMode:
+        ("fmi2EnterInitializationMode", INSTANTIATED), ("fmi3EnterInitializationMode", INSTANTIATED);
+    ExitInitializationMode:
+        ("fmi2ExitInitializationMode", INITIALIZATION), ("fmi3ExitInitializationMode", INITIALIZATION);
+    EnterEventMode: NONE, ("fmi3EnterEventMode", STEP_COMPLETE);
+    EnterStepMode: NONE, ("fmi3EnterStepMode", EVENT);
+    UpdateDiscreteStates: NONE, ("fmi3UpdateDiscreteStates", EVENT);
+    Terminate: ("fmi2Terminate", STEP_COMPLETE), ("fmi3Terminate", EVENT_OR_STEP);
+    Reset: ("fmi2Reset", ALWAYS), ("fmi3Reset", ALWAYS);
+    GetReal: ("fmi2GetReal", FROM_INITIALIZATION), ("fmi3GetFloat64", ALWAYS_TO_READ);
+    GetInteger: ("fmi2GetInteger", FROM_INITIALIZATION), ("fmi3GetInt32", ALWAYS_TO_READ);
+    GetBoolean: ("fmi2GetBoolean", FROM_INITIALIZATION), ("fmi3GetBoolean", ALWAYS_TO_READ);
+    GetString: ("fmi2GetString", FROM_INITIALIZATION), ("fmi3GetString", ALWAYS_TO_READ);
+    SetReal: ("fmi2SetReal", BEFORE_THE_END), ("fmi3SetFloat64", TO_SET);
+    SetInteger: ("fmi2SetInteger", BEFORE_THE_END), ("fmi3SetInt32", NEVER);
+    SetBoolean: ("fmi2SetBoolean", BEFORE_THE_END), ("fmi3SetBoolean", NEVER);
+    SetString: ("fmi2SetString", BEFORE_THE_END), ("fmi3SetString", BEFORE_THE_END);
+    GetFMUstate: ("fmi2GetFMUstate", ALWAYS), ("fmi3GetFMUState", ALWAYS);
+    SetFMUstate: ("fmi2SetFMUstate", ALWAYS), ("fmi3SetFMUState", ALWAYS);
+    FreeFMUstate: ("fmi2FreeFMUstate", ALWAYS), ("fmi3FreeFMUState", ALWAYS);
+    SerializedFMUstateSize: ("fmi2SerializedFMUstateSize", ALWAYS), ("fmi3SerializedFMUStateSize", ALWAYS);
+    SerializeFMUstate: ("fmi2SerializeFMUstate", ALWAYS), ("fmi3SerializeFMUState", ALWAYS);
+    DeSerializeFMUstate: ("fmi2DeSerializeFMUstate", ALWAYS), ("fmi3DeserializeFMUState", ALWAYS);
+    GetDirectionalDerivative:
+        ("fmi2GetDirectionalDerivative", FROM_INITIALIZATION),
+        ("fmi3GetDirectionalDerivative", FROM_INITIALIZATION);
+    GetAdjointDerivative: NONE, ("fmi3GetAdjointDerivative", FROM_INITIALIZATION);
+    SetRealInputDerivatives: ("fmi2SetRealInputDerivatives", BEFORE_THE_END), NONE;
+    GetRealOutputDerivatives:
+        ("fmi2GetRealOutputDerivatives", AFTER_INITIALIZATION), ("fmi3GetOutputDerivatives", FROM_STEPS_ON);
+    DoStep: ("fmi2DoStep", STEP_COMPLETE), ("fmi3DoStep", STEP_COMPLETE);
+    CancelStep: ("fmi2CancelStep", NEVER), NONE;
+    GetStatus: ("fmi2GetStatus", STEPPED), NONE;
+    GetRealStatus: ("fmi2GetRealStatus", STEPPED), NONE;
+    GetIntegerStatus: ("fmi2GetIntegerStatus", STEPPED), NONE;
+    GetBooleanStatus: ("fmi2GetBooleanStatus", STEPPED), NONE;
+    GetStringStatus: ("fmi2GetStringStatus", STEPPED), NONE;
+}
 
+impl Call {
     /// Name of the C function.
     pub const fn name(self, version: FmiVersion) -> &'static str {
         self.rule(version).0

@@ -21,32 +21,18 @@ pub enum Dependence {
 /// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
 /// the ground has a share.
 pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> Option<Dependence> {
-    let accelerated = match output {
-        Output::Acceleration(side, floor) => Some((side, Place::Floor(floor))),
-        Output::Foundation(side, FoundationOutput::Acceleration) => Some((side, Place::Foundation)),
-        _ => None,
+    let place = match output {
+        Output::Acceleration(side, floor) => (side, Place::Floor(floor)),
+        Output::Foundation(side, FoundationOutput::Acceleration) => (side, Place::Foundation),
+        Output::Contact(p, ContactOutput::Force) if scene.contacts[p].law.is_rigid() => floors(scene, p)[0],
+        _ => return None,
     };
-    match (output, input) {
-        (Output::Acceleration(..) | Output::Foundation(..), Input::Force(side, floor)) => {
-            let place = accelerated?;
-            let answers = held_with(scene, place).contains(&(side, Place::Floor(floor)));
-            let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == place));
-            answers.then_some(if is_free { Dependence::Fixed } else { Dependence::Dependent })
-        }
-        (Output::Acceleration(..) | Output::Foundation(..), Input::GroundAcceleration) => {
-            is_held_to_ground(scene, accelerated?).then_some(Dependence::Dependent)
-        }
-        (Output::Contact(p, ContactOutput::Force), Input::GroundAcceleration) => {
-            let answers = scene.contacts[p].law.is_rigid() && is_held_to_ground(scene, floors(scene, p)[0]);
-            answers.then_some(Dependence::Dependent)
-        }
-        (Output::Contact(p, ContactOutput::Force), Input::Force(side, floor)) => {
-            let answers = scene.contacts[p].law.is_rigid()
-                && held_with(scene, floors(scene, p)[0]).contains(&(side, Place::Floor(floor)));
-            answers.then_some(Dependence::Dependent)
-        }
-        _ => None,
-    }
+    let answers = match input {
+        Input::Force(side, floor) => held_with(scene, place).contains(&(side, Place::Floor(floor))),
+        Input::GroundAcceleration => is_held_to_ground(scene, place),
+    };
+    let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == place));
+    answers.then_some(if is_free { Dependence::Fixed } else { Dependence::Dependent })
 }
 
 /// Those in the row of a contact.

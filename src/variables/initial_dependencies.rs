@@ -23,7 +23,7 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
                 || is_of_weight(scene, (side, storey), known);
         }
         Slot::Calculated(Calculated::CriticalDrift(side, storey)) => {
-            return is_of_storey(known, (side, storey)) || is_of_weight(scene, (side, storey), known);
+            return is_of_net_storey(scene, known, (side, storey));
         }
         Slot::Calculated(Calculated::SystemFrequency(_)) => {
             let is_of_building = [Side::Left, Side::Right].into_iter().any(|side| is_of_modes(side, known));

@@ -22,8 +22,8 @@
 //! ```
 //!
 //! A new output or input is named in the engine (`engine/output/outputs.rs`, `engine/excitation/inputs.rs`), a new
-//! parameter in `slot.rs`; its row is in `rows.rs` (of links: `link_rows.rs`), and the compiler asks for the arms: of a parameter in `values.rs`,
-//! of an output in `initial_dependencies.rs`.
+//! parameter in `slot.rs`; its row is in `rows.rs` (of links: `link_rows.rs`), and the compiler asks for the arms: of a
+//! parameter in `values.rs`, of an output in `initial_dependencies.rs`.
 
 mod changes;
 mod dependencies;
@@ -31,6 +31,7 @@ mod derivatives;
 mod foundation_rows;
 mod initial_dependencies;
 mod link_rows;
+mod part;
 mod rows;
 mod slot;
 mod table;

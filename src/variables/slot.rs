@@ -101,29 +101,16 @@ impl Slot {
     }
 }
 
-impl From<Input> for Slot {
-    fn from(input: Input) -> Slot {
-        Slot::Input(input)
-    }
+macro_rules! slots {
+    ($($Kind:ident),*) => {$(
+        impl From<$Kind> for Slot {
+            fn from(of: $Kind) -> Slot {
+                Slot::$Kind(of)
+            }
+        }
+    )*};
 }
-
-impl From<Calculated> for Slot {
-    fn from(calculated: Calculated) -> Slot {
-        Slot::Calculated(calculated)
-    }
-}
-
-impl From<Parameter> for Slot {
-    fn from(parameter: Parameter) -> Slot {
-        Slot::Parameter(parameter)
-    }
-}
-
-impl From<Output> for Slot {
-    fn from(output: Output) -> Slot {
-        Slot::Output(output)
-    }
-}
+slots!(Input, Parameter, Calculated, Output);
 
 impl Causality {
     /// As the description writes it.

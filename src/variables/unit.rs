@@ -3,53 +3,6 @@
 use crate::contact::StiffnessUnit;
 use crate::record::STANDARD_GRAVITY;
 
-/// A unit, as the description declares it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Unit {
-    /// Dimensionless.
-    One,
-    /// m
-    Metre,
-    /// m/s
-    MetrePerSecond,
-    /// m/s2
-    MetrePerSecondSquared,
-    /// Hz
-    Hertz,
-    /// kg
-    Kilogram,
-    /// N
-    Newton,
-    /// N s
-    NewtonSecond,
-    /// N s/m
-    NewtonSecondPerMetre,
-    /// N/m
-    NewtonPerMetre,
-    /// N/m^1.5, without base units for the same reason as the next.
-    NewtonPerMetreToTheThreeHalves,
-    /// N/m^n, n being the `exponent` parameter of the same contact. FMI base units have whole exponents and a unit
-    /// cannot follow a parameter, so this one is declared by its name alone.
-    NewtonPerMetreToTheExponent,
-    /// J
-    Joule,
-    /// s
-    Second,
-    /// rad
-    Radian,
-    /// rad/s
-    RadianPerSecond,
-    /// kg m2
-    KilogramMetreSquared,
-    /// N m
-    NewtonMetre,
-    /// N m/rad
-    NewtonMetrePerRadian,
-    /// N m s/rad
-    NewtonMetreSecondPerRadian,
-}
-
 /// What the description says of a unit.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -64,31 +17,63 @@ pub struct UnitInfo {
     pub display: Option<(&'static str, f64)>,
 }
 
-impl Unit {
-    /// All units, in the order of the description.
-    pub const ALL: [Unit; 20] = [
-        Unit::One,
-        Unit::Metre,
-        Unit::MetrePerSecond,
-        Unit::MetrePerSecondSquared,
-        Unit::Hertz,
-        Unit::Kilogram,
-        Unit::Newton,
-        Unit::NewtonSecond,
-        Unit::NewtonSecondPerMetre,
-        Unit::NewtonPerMetre,
-        Unit::NewtonPerMetreToTheThreeHalves,
-        Unit::NewtonPerMetreToTheExponent,
-        Unit::Joule,
-        Unit::Second,
-        Unit::Radian,
-        Unit::RadianPerSecond,
-        Unit::KilogramMetreSquared,
-        Unit::NewtonMetre,
-        Unit::NewtonMetrePerRadian,
-        Unit::NewtonMetreSecondPerRadian,
-    ];
+/// Makes of the rows below the units, in the order of the description, and what it says of each: name, quantity, powers
+/// of the base units and the unit to show.
+macro_rules! units {
+    ($($(#[$about:meta])* $unit:ident: $name:expr, $quantity:literal, $base:expr, $display:expr;)+) => {
+        /// A unit, as the description declares it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[non_exhaustive]
+        pub enum Unit {
+            $($(#[$about])* #[doc = $quantity] $unit,)+
+        }
 
+        impl Unit {
+            /// All units, in the order of the description.
+            pub const ALL: [Unit; [$(Unit::$unit),+].len()] = [$(Unit::$unit),+];
+
+            /// What the description says of this unit.
+            pub const fn info(self) -> UnitInfo {
+                match self {
+                    $(Unit::$unit => UnitInfo { name: $name, quantity: $quantity, base: $base, display: $display },)+
+                }
+            }
+        }
+    };
+}
+
+units! {
+    One: "1", "Dimensionless", Some(&[]), None;
+    Metre: "m", "Length", Some(&[("m", 1)]), Some(("mm", 1e3));
+    MetrePerSecond: "m/s", "Velocity", Some(&[("m", 1), ("s", -1)]), Some(("mm/s", 1e3));
+    MetrePerSecondSquared:
+        "m/s2", "Acceleration", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY));
+    Hertz: "Hz", "Frequency", Some(&[("s", -1)]), None;
+    Kilogram: "kg", "Mass", Some(&[("kg", 1)]), Some(("t", 1e-3));
+    Newton: "N", "Force", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3));
+    NewtonSecond: "N.s", "Impulse", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3));
+    NewtonSecondPerMetre: "N.s/m", "DampingCoefficient", Some(&[("kg", 1), ("s", -1)]), Some(("kN.s/m", 1e-3));
+    NewtonPerMetre: "N/m", "Stiffness", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3));
+    /// Without base units for the same reason as the next:
+    NewtonPerMetreToTheThreeHalves: StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), "HertzStiffness", None, None;
+    /// The exponent is a parameter of the same contact. FMI base units have whole exponents and a unit cannot follow a
+    /// parameter, so this one is declared by its name alone:
+    NewtonPerMetreToTheExponent: StiffnessUnit::NewtonPerMetreToTheExponent.name(), "ContactStiffness", None, None;
+    Joule: "J", "Energy", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3));
+    Second: "s", "Time", Some(&[("s", 1)]), None;
+    Radian: "rad", "Angle", Some(&[("rad", 1)]), Some(("mrad", 1e3));
+    RadianPerSecond: "rad/s", "AngularVelocity", Some(&[("s", -1), ("rad", 1)]), Some(("mrad/s", 1e3));
+    KilogramMetreSquared: "kg.m2", "MomentOfInertia", Some(&[("kg", 1), ("m", 2)]), Some(("t.m2", 1e-3));
+    NewtonMetre: "N.m", "Moment", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kN.m", 1e-3));
+    NewtonMetrePerRadian:
+        "N.m/rad", "RotationalStiffness", Some(&[("kg", 1), ("m", 2), ("s", -2), ("rad", -1)]),
+        Some(("kN.m/rad", 1e-3));
+    NewtonMetreSecondPerRadian:
+        "N.m.s/rad", "RotationalDamping", Some(&[("kg", 1), ("m", 2), ("s", -1), ("rad", -1)]),
+        Some(("kN.m.s/rad", 1e-3));
+}
+
+impl Unit {
     /// That of the stiffness of a contact. Where the exponent is a parameter, the unit follows it.
     pub const fn of_stiffness(unit: StiffnessUnit) -> Unit {
         match unit {
@@ -97,61 +82,4 @@ impl Unit {
             StiffnessUnit::NewtonPerMetreToTheExponent => Unit::NewtonPerMetreToTheExponent,
         }
     }
-
-    /// What the description says of this unit.
-    pub const fn info(self) -> UnitInfo {
-        match self {
-            Unit::One => unit("1", "Dimensionless", Some(&[]), None),
-            Unit::Metre => unit("m", "Length", Some(&[("m", 1)]), Some(("mm", 1e3))),
-            Unit::MetrePerSecond => unit("m/s", "Velocity", Some(&[("m", 1), ("s", -1)]), Some(("mm/s", 1e3))),
-            Unit::MetrePerSecondSquared => {
-                unit("m/s2", "Acceleration", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY)))
-            }
-            Unit::Hertz => unit("Hz", "Frequency", Some(&[("s", -1)]), None),
-            Unit::Kilogram => unit("kg", "Mass", Some(&[("kg", 1)]), Some(("t", 1e-3))),
-            Unit::Newton => unit("N", "Force", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
-            Unit::NewtonSecond => unit("N.s", "Impulse", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
-            Unit::NewtonSecondPerMetre => {
-                unit("N.s/m", "DampingCoefficient", Some(&[("kg", 1), ("s", -1)]), Some(("kN.s/m", 1e-3)))
-            }
-            Unit::NewtonPerMetre => unit("N/m", "Stiffness", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
-            Unit::NewtonPerMetreToTheThreeHalves => {
-                unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), "HertzStiffness", None, None)
-            }
-            Unit::NewtonPerMetreToTheExponent => {
-                unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), "ContactStiffness", None, None)
-            }
-            Unit::Second => unit("s", "Time", Some(&[("s", 1)]), None),
-            Unit::Radian => unit("rad", "Angle", Some(&[("rad", 1)]), Some(("mrad", 1e3))),
-            Unit::RadianPerSecond => {
-                unit("rad/s", "AngularVelocity", Some(&[("s", -1), ("rad", 1)]), Some(("mrad/s", 1e3)))
-            }
-            Unit::KilogramMetreSquared => {
-                unit("kg.m2", "MomentOfInertia", Some(&[("kg", 1), ("m", 2)]), Some(("t.m2", 1e-3)))
-            }
-            Unit::NewtonMetre => unit("N.m", "Moment", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kN.m", 1e-3))),
-            Unit::NewtonMetrePerRadian => unit(
-                "N.m/rad",
-                "RotationalStiffness",
-                Some(&[("kg", 1), ("m", 2), ("s", -2), ("rad", -1)]),
-                Some(("kN.m/rad", 1e-3)),
-            ),
-            Unit::NewtonMetreSecondPerRadian => unit(
-                "N.m.s/rad",
-                "RotationalDamping",
-                Some(&[("kg", 1), ("m", 2), ("s", -1), ("rad", -1)]),
-                Some(("kN.m.s/rad", 1e-3)),
-            ),
-            Unit::Joule => unit("J", "Energy", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
-        }
-    }
-}
-
-const fn unit(
-    name: &'static str,
-    quantity: &'static str,
-    base: Option<&'static [(&'static str, i32)]>,
-    display: Option<(&'static str, f64)>,
-) -> UnitInfo {
-    UnitInfo { name, quantity, base, display }
 }

@@ -10,12 +10,9 @@ use crate::engine::excitation::inputs::Input;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{ContactOutput, FoundationOutput, Output};
-use crate::engine::output::point::Point;
 use crate::engine::pairs::row::relative;
-use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::scene::Place;
-use crate::structure::Side;
 
 /// Accelerations and reactions by some forces on the floors alone, for a given motion.
 #[derive(Clone, Debug, Default)]
@@ -51,15 +48,48 @@ impl Instant<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn respond(&self, changes: impl IntoIterator<Item = (Input, f64)>, response: &mut Response) {
-        let (model, state, point) = self.parts();
-        model.clear_response(response);
+        let system = &self.model.system;
+        let floors = &system.structure.floors;
+        let Response { reactions, accelerations, ground, .. } = response;
+        for (vector, length) in [(reactions, system.pairs.len()), (&mut *accelerations, system.structure.lanes)] {
+            vector.clear();
+            vector.resize(length, 0.0);
+        }
+        *ground = 0.0;
         for (input, change) in changes {
             match input {
-                Input::GroundAcceleration => model.push_ground(change, response),
-                Input::Force(side, floor) => model.push_floor((side, floor), change, response),
+                Input::GroundAcceleration => {
+                    *ground += change;
+                    let shares = system.participation(Coordinates::Floors);
+                    accelerations.iter_mut().zip(shares).for_each(|(floor, share)| *floor -= share * change);
+                }
+                Input::Force(side, floor) => {
+                    let lane = floors.lane(side as usize, floor);
+                    accelerations[lane] += change * floors.inverse_mass(lane);
+                }
             }
         }
-        model.settle_response(state, point, response);
+        self.settle(response);
+    }
+
+    /// Adds the reactions of the rigid pairs that press now: their floors stay together.
+    fn settle(&self, response: &mut Response) {
+        let Model { system, .. } = self.model;
+        let mut work = response.work.take().unwrap_or_else(|| Box::new(self.model.buffers()));
+        self.list_pressing(&mut work);
+        let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
+        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+            *known = relative(&system.pairs[system.rigid.pairs[k]].row.floors, accelerations);
+        }
+        rigid.solve();
+        for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
+            let p = system.rigid.pairs[k];
+            response.reactions[p] = *reaction;
+            for floor in &system.pairs[p].row.floors {
+                accelerations[floor.lane] += reaction * floor.push;
+            }
+        }
+        response.work = Some(work);
     }
 }
 
@@ -77,52 +107,5 @@ impl Model {
             Output::Contact(p, ContactOutput::Force) => response.reactions[p],
             _ => 0.0,
         }
-    }
-
-    /// Begins the response to another set of forces, without any yet.
-    fn clear_response(&self, response: &mut Response) {
-        for (vector, length) in [
-            (&mut response.reactions, self.system.pairs.len()),
-            (&mut response.accelerations, self.system.structure.lanes),
-        ] {
-            vector.clear();
-            vector.resize(length, 0.0);
-        }
-        response.ground = 0.0;
-    }
-
-    /// Adds an acceleration of the ground, m/s2, without reactions.
-    fn push_ground(&self, acceleration: f64, response: &mut Response) {
-        response.ground += acceleration;
-        let shares = self.system.participation(Coordinates::Floors);
-        for (floor, share) in response.accelerations.iter_mut().zip(shares) {
-            *floor -= share * acceleration;
-        }
-    }
-
-    /// Adds the acceleration of a floor by a force on it, N, without reactions.
-    fn push_floor(&self, (side, floor): (Side, usize), force: f64, response: &mut Response) {
-        let floors = &self.system.structure.floors;
-        let lane = floors.lane(side as usize, floor);
-        response.accelerations[lane] += force * floors.inverse_mass(lane);
-    }
-
-    /// Adds the reactions of the rigid pairs that press now, as `point` shows them: their floors stay together.
-    fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
-        let mut work = response.work.take().unwrap_or_else(|| Box::new(self.buffers()));
-        self.list_pressing(&state.base, point, &mut work);
-        let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
-        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            *known = relative(&self.system.pairs[self.system.rigid.pairs[k]].row.floors, accelerations);
-        }
-        rigid.solve();
-        for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
-            let p = self.system.rigid.pairs[k];
-            response.reactions[p] = *reaction;
-            for floor in &self.system.pairs[p].row.floors {
-                accelerations[floor.lane] += reaction * floor.push;
-            }
-        }
-        response.work = Some(work);
     }
 }

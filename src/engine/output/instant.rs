@@ -1,21 +1,21 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
 use crate::engine::model::Model;
-use crate::engine::output::outputs::{
-    ContactOutput, ContactPoint, EnergyPoint, FoundationOutput, LinkOutput, Output, Rates,
-};
+use crate::engine::output::outputs::{ContactOutput, FoundationOutput, LinkOutput, Output, Rates};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
+use crate::scene::Place;
+use crate::structure::Side;
 
 /// The solution at one time, as [`Model::observe`] shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a> {
-    model: &'a Model,
-    state: &'a State,
-    point: &'a Point,
+    pub(super) model: &'a Model,
+    pub(super) state: &'a State,
+    pub(super) point: &'a Point,
 }
 
 impl Model {
@@ -28,11 +28,6 @@ impl Model {
 }
 
 impl<'a> Instant<'a> {
-    /// What it shows, in what, and where.
-    pub(in crate::engine) fn parts(&self) -> (&'a Model, &'a State, &'a Point) {
-        (self.model, self.state, self.point)
-    }
-
     /// The model of the run.
     pub fn model(&self) -> &'a Model {
         self.model
@@ -70,48 +65,28 @@ impl<'a> Instant<'a> {
         let Instant { model, state, point } = *self;
         match output {
             Output::GroundAcceleration => point.ground_acceleration,
-            Output::Displacement(side, floor) => model.displacement(point, side, floor),
-            Output::Velocity(side, floor) => model.velocity(point, side, floor),
-            Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
-            Output::BaseShear(side) => model.base_shear(point, side),
-            Output::Peak(of) => model.peak_shown(state, point, of),
-            Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
-            Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
-            Output::Yielding(side, storey) => model.yielding(point, (side, storey)),
+            Output::Displacement(side, floor) => self.displacement(self.lane(side, floor)),
+            Output::Velocity(side, floor) => self.velocity(self.lane(side, floor)),
+            Output::Acceleration(side, floor) => self.acceleration(self.lane(side, floor)),
+            Output::BaseShear(side) => self.base_shear(side),
+            Output::Peak(of) => self.peak_shown(of),
+            Output::OfStorey(of, side, storey) => self.storey_peak(of, (side, storey)),
+            Output::OfYielding(of, side, storey) => self.of_yielding(of, (side, storey)),
+            Output::Yielding(side, storey) => self.yielding((side, storey)),
             Output::Collapsed(side) => f64::from(model.collapse(state).is_some_and(|collapse| collapse.side == side)),
             Output::CollapseTime(side) => {
                 let of_side = model.collapse(state).filter(|collapse| collapse.side == side);
                 of_side.map_or(-1.0, |collapse| collapse.time)
             }
-            Output::Contact(p, of) => model.contact(state, point, p).get(of),
-            Output::Link(l, of) => model.link(state, point, l, of),
-            Output::Foundation(side, FoundationOutput::Acceleration) => model.foundation_acceleration(point, side),
+            Output::Contact(p, of) => self.contact(p).get(of),
+            Output::Link(l, of) => self.link(l, of),
+            Output::Foundation(side, FoundationOutput::Acceleration) => {
+                self.lane_of_foundation(side).map_or(0.0, |lane| self.acceleration(lane))
+            }
             Output::Foundation(side, of) => model.soil_output(side, of).map_or(0.0, |output| self.read(output)),
             Output::Impacts => point.impacts as f64,
-            Output::Energy(of) => model.energy(state, point).unwrap_or_default().get(of),
+            Output::Energy(of) => self.energy().unwrap_or_default().get(of),
         }
-    }
-
-    /// All quantities of a contact, counted from 0.
-    ///
-    /// # Panics
-    /// Where the scene has no such contact.
-    pub fn contact(&self, p: usize) -> ContactPoint {
-        self.model.contact(self.state, self.point, p)
-    }
-
-    /// The energy account; `None` where the scene keeps none.
-    pub fn energy(&self) -> Option<EnergyPoint> {
-        self.model.energy(self.state, self.point)
-    }
-
-    /// Works out the derivatives with respect to time, of which [`Instant::rates`] reads; the memory of `rates` is
-    /// reused.
-    ///
-    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on
-    /// them, are 0.
-    pub fn differentiate(&self, rates: &mut PointRates) {
-        self.model.differentiate(self.state, self.point, rates);
     }
 
     /// First and second derivative of an output with respect to time, per s and per s2 of its unit, from the
@@ -136,37 +111,25 @@ impl<'a> Instant<'a> {
     /// # Panics
     /// As [`Instant::read`].
     pub fn rates(&self, rates: &PointRates, output: Output) -> Rates {
-        let Instant { model, state, point } = *self;
         match output {
             Output::GroundAcceleration => rates.ground_acceleration,
-            Output::Displacement(side, floor) => model.displacement_rates(point, rates, side, floor),
-            Output::Velocity(side, floor) => model.velocity_rates(point, rates, side, floor),
-            Output::Acceleration(side, floor) => model.acceleration_rates(point, rates, side, floor),
-            Output::BaseShear(side) => model.base_shear_rates(point, rates, side),
-            Output::Peak(of) => self.differentiate_peak(rates, of),
-            Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
-                let hardest = model.hardest_on(state, point, (side, storey));
-                hardest.map_or([0.0; 2], |(p, _)| rates.contacts[p][ContactOutput::PeakForce])
-            }
-            Output::OfStorey(of, side, storey) => {
-                let yielded = model.yielded_shear_rates(point, rates, (side, storey));
-                if let (StoreyPeak::Shear, Some(rates)) = (of, yielded) {
-                    return rates;
-                }
-                let factor = model.storeys.per_drift(of, (side, storey));
-                self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| factor * rate)
-            }
-            Output::OfYielding(of, side, storey) => match model.unused_drift(point, of, (side, storey)) {
-                Some(drift) => self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| rate / drift),
-                None => model.yielding_rates(point, rates, of, (side, storey)),
+            Output::Displacement(side, floor) => self.displacement_rates(rates, self.lane(side, floor)),
+            Output::Velocity(side, floor) => self.velocity_rates(rates, self.lane(side, floor)),
+            Output::Acceleration(side, floor) => self.acceleration_rates(rates, self.lane(side, floor)),
+            Output::BaseShear(side) => self.base_shear_rates(rates, side),
+            Output::Peak(of) => self.peak_rates(rates, of),
+            Output::OfStorey(of, side, storey) => self.storey_peak_rates(rates, of, (side, storey)),
+            Output::OfYielding(of, side, storey) => match self.unused_drift(of, (side, storey)) {
+                Some(drift) => self.peak_rates(rates, PeakOf::Drift(side, storey)).map(|rate| rate / drift),
+                None => self.yielding_rates(rates, of, (side, storey)),
             },
             Output::Contact(p, of) => rates.contacts[p][of],
-            Output::Link(l, of) => model.link_rates(point, rates, l, of),
+            Output::Link(l, of) => self.link_rates(rates, l, of),
             Output::Foundation(side, FoundationOutput::Acceleration) => {
-                model.foundation_acceleration_rates(point, rates, side)
+                self.lane_of_foundation(side).map_or([0.0; 2], |lane| self.acceleration_rates(rates, lane))
             }
             Output::Foundation(side, of) => {
-                model.soil_output(side, of).map_or([0.0; 2], |output| self.rates(rates, output))
+                self.model.soil_output(side, of).map_or([0.0; 2], |output| self.rates(rates, output))
             }
             Output::Energy(of) => rates.energy.unwrap_or_default()[of],
             // Held from one event to the next.
@@ -174,28 +137,38 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// Time derivatives of a peak: those of its quantity while that is at the peak and grows, else 0.
-    fn differentiate_peak(&self, rates: &PointRates, of: PeakOf) -> Rates {
-        let Instant { model, state, point } = *self;
-        let now = match of {
-            PeakOf::Displacement(side, floor) => Output::Displacement(side, floor),
-            PeakOf::Drift(side, storey) => {
-                let (drift, rest) =
-                    (model.drift(point, (side, storey)), model.drift_rates(point, rates, (side, storey)));
-                return rates_of_peak(drift, rest, model.peak(state, point, of));
-            }
-            PeakOf::Acceleration(side, floor) => Output::Acceleration(side, floor),
-            PeakOf::BaseShear(side) => Output::BaseShear(side),
-            PeakOf::LinkDisplacement(l) => Output::Link(l, LinkOutput::Displacement),
-            PeakOf::LinkForce(l) => Output::Link(l, LinkOutput::Force),
-        };
-        rates_of_peak(self.read(now), self.rates(rates, now), model.peak(state, point, of))
+    fn lane(&self, side: Side, floor: usize) -> usize {
+        self.model.system.structure.floors.lane(side as usize, floor)
     }
-}
 
-/// The derivatives of a peak, the largest magnitude so far, from the present value of its quantity with its
-/// derivatives.
-fn rates_of_peak(value: f64, [first, second]: Rates, peak: f64) -> Rates {
-    let is_peak = value.abs() >= (1.0 - PEAK_ROUNDING) * peak && value * first > 0.0;
-    if is_peak { [first * value.signum(), second * value.signum()] } else { [0.0; 2] }
+    /// That of a foundation; none of one that does not sway.
+    fn lane_of_foundation(&self, side: Side) -> Option<usize> {
+        self.model.system.structure.floors.lane_of(side, Place::Foundation)
+    }
+
+    fn storey_peak_rates(&self, rates: &PointRates, of: StoreyPeak, place: (Side, usize)) -> Rates {
+        if of == StoreyPeak::ColumnForce {
+            return self.hardest_on(place).map_or([0.0; 2], |(p, _)| rates.contacts[p][ContactOutput::PeakForce]);
+        }
+        if let (StoreyPeak::Shear, Some(rates)) = (of, self.yielded_shear_rates(rates, place)) {
+            return rates;
+        }
+        let factor = self.model.storeys.per_drift(of, place);
+        self.peak_rates(rates, PeakOf::Drift(place.0, place.1)).map(|rate| factor * rate)
+    }
+
+    /// Time derivatives of a peak: those of its quantity while that is at the peak and grows, else 0.
+    fn peak_rates(&self, rates: &PointRates, of: PeakOf) -> Rates {
+        let of_output = |output| (self.read(output), self.rates(rates, output));
+        let (value, [first, second]) = match of {
+            PeakOf::Displacement(side, floor) => of_output(Output::Displacement(side, floor)),
+            PeakOf::Drift(side, storey) => (self.drift((side, storey)), self.drift_rates(rates, (side, storey))),
+            PeakOf::Acceleration(side, floor) => of_output(Output::Acceleration(side, floor)),
+            PeakOf::BaseShear(side) => of_output(Output::BaseShear(side)),
+            PeakOf::LinkDisplacement(l) => of_output(Output::Link(l, LinkOutput::Displacement)),
+            PeakOf::LinkForce(l) => of_output(Output::Link(l, LinkOutput::Force)),
+        };
+        let is_peak = value.abs() >= (1.0 - PEAK_ROUNDING) * self.peak(of) && value * first > 0.0;
+        if is_peak { [first * value.signum(), second * value.signum()] } else { [0.0; 2] }
+    }
 }

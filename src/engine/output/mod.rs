@@ -1,23 +1,22 @@
 //! Reading the solution at the communication time from the dense solution of the planned step.
 
-pub(super) mod energy;
-pub(super) mod energy_rates;
+mod energy;
+mod energy_rates;
 pub(super) mod feedthrough;
-pub(super) mod floors;
+mod floors;
 mod foundation;
-pub(super) mod frequencies;
+mod frequencies;
 pub(super) mod instant;
-pub(super) mod known;
+mod known;
 mod links;
 pub(super) mod outputs;
-pub(super) mod peaks;
+mod peaks;
 pub(super) mod point;
 pub(super) mod point_rates;
-pub(super) mod rates;
+mod rates;
 mod storeys;
-pub(super) mod yielding;
+mod yielding;
 
-use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::storey::Storey;
 use crate::engine::model::Model;
@@ -62,7 +61,7 @@ impl Model {
         // In a flight no contact has a force.
         let is_flight = step.is_flight();
         if !is_flight {
-            self.note_contacts(state, elapsed, &mut work, point);
+            Instant { model: self, state, point }.note_contacts(elapsed, &mut work);
         }
         if !is_flight || self.system.floor_forces {
             self.read_load(state, point);
@@ -88,7 +87,7 @@ impl Model {
     }
 
     /// The scratch memory of a point, to be put back after use.
-    pub(in crate::engine) fn take_buffers(&self, point: &Point) -> Box<Buffers> {
+    fn take_buffers(&self, point: &Point) -> Box<Buffers> {
         point.work.take().unwrap_or_else(|| Box::new(self.buffers()))
     }
 
@@ -105,25 +104,6 @@ impl Model {
         point.peaks = PeakCell::default();
     }
 
-    /// Works out the closed contacts.
-    #[inline(never)]
-    fn note_contacts(&self, state: &State, elapsed: f64, work: &mut Buffers, point: &Point) {
-        let State { base, step, inputs, .. } = state;
-        for (p, _) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()) {
-            let now = step.contact_at(&self.system, base, p, elapsed, &work.powers);
-            point.note_contact(p, self.show(&now, now.penetration));
-        }
-        if step.kind == StepKind::NotPlanned && base.contacts.iter().any(Contact::is_held) {
-            // An input that has just been set changes the reactions at the same instant.
-            self.system.solve_present_reactions(base, inputs, work);
-            for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
-                let p = self.system.rigid.pairs[k];
-                // It counts in the peak from the next step on.
-                point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
-            }
-        }
-    }
-
     /// Works out the load by the floor and contact forces, on which accelerations depend; open contacts have no force.
     fn read_load(&self, state: &State, point: &mut Point) {
         let Point { floors, contacts, coordinates, .. } = point;
@@ -138,24 +118,54 @@ impl Model {
         }
     }
 
-    /// A contact, counted from 0, at the observed time.
+    /// The open episode of a contact at the communication time; `None` while it is apart.
+    pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
+        let elapsed = state.since_base();
+        let mut powers = Powers::default();
+        state.step.set_powers(elapsed, &mut powers);
+        let mut contact = state.step.contact_at(&self.system, &state.base, contact, elapsed, &powers);
+        let (force, time) = (contact.present_force(), state.time);
+        contact.raise_peak(force, time);
+        contact.in_contact().then(|| contact.present_episode())
+    }
+}
+
+impl Instant<'_> {
+    /// All quantities of a contact, counted from 0.
+    ///
+    /// # Panics
+    /// Where the scene has no such contact.
     #[inline]
-    pub(in crate::engine) fn contact(&self, state: &State, point: &Point, p: usize) -> ContactPoint {
-        self.contact_in(&state.base, point, p)
+    pub fn contact(&self, p: usize) -> ContactPoint {
+        let Known { observation, shown } = self.point.contacts[p].get();
+        if observation == self.point.floors.observation { shown } else { self.note_contact_apart(p) }
     }
 
-    /// A contact at the observed time, with the base of the state.
-    #[inline]
-    pub(in crate::engine) fn contact_in(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let Known { observation, shown } = point.contacts[p].get();
-        if observation == point.floors.observation { shown } else { self.note_contact_apart(base, point, p) }
+    /// Works out the closed contacts.
+    #[inline(never)]
+    fn note_contacts(&self, elapsed: f64, work: &mut Buffers) {
+        let Instant { model: Model { system, .. }, state: State { base, step, inputs, .. }, point } = *self;
+        for (p, _) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()) {
+            let now = step.contact_at(system, base, p, elapsed, &work.powers);
+            point.note_contact(p, self.show(&now, now.penetration));
+        }
+        if step.kind == StepKind::NotPlanned && base.contacts.iter().any(Contact::is_held) {
+            // An input that has just been set changes the reactions at the same instant.
+            system.solve_present_reactions(base, inputs, work);
+            for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
+                let p = system.rigid.pairs[k];
+                // It counts in the peak from the next step on.
+                point.note_contact(p, ContactPoint { force, ..self.contact(p) });
+            }
+        }
     }
 
     #[inline(never)]
-    fn note_contact_apart(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let pair = &self.system.pairs[p];
+    fn note_contact_apart(&self, p: usize) -> ContactPoint {
+        let Instant { model: Model { system, .. }, state, point } = *self;
+        let pair = &system.pairs[p];
         let penetration = pair.relative(point.coordinates, &point.q) - pair.gap_at(&point.rest);
-        let shown = self.show(&base.contacts[p], penetration);
+        let shown = self.show(&state.base.contacts[p], penetration);
         point.note_contact(p, shown);
         shown
     }
@@ -174,22 +184,11 @@ impl Model {
             dissipated_energy: contact.dissipated_energy(),
             approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
         };
-        if !self.system.pairs[contact.episode.contact].law.kind.info().pulls {
+        if !self.model.system.pairs[contact.episode.contact].law.kind.info().pulls {
             // These are 0 where a contact begins or ends, except by rounding, which must not make them negative.
             (shown.force, shown.impulse) = (shown.force.max(0.0), shown.impulse.max(0.0));
         }
         shown
-    }
-
-    /// The open episode of a contact at the communication time; `None` while it is apart.
-    pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
-        let elapsed = state.since_base();
-        let mut powers = Powers::default();
-        state.step.set_powers(elapsed, &mut powers);
-        let mut contact = state.step.contact_at(&self.system, &state.base, contact, elapsed, &powers);
-        let (force, time) = (contact.present_force(), state.time);
-        contact.raise_peak(force, time);
-        contact.in_contact().then(|| contact.present_episode())
     }
 }
 

@@ -4,6 +4,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
+use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
 use crate::engine::peaks::ahead::FlightsAhead;
@@ -15,21 +16,24 @@ use crate::engine::step::StepKind;
 /// Number of flights from one read to the next up to which it is worth looking ahead.
 const OFTEN: usize = 4;
 
-impl Model {
+impl Instant<'_> {
     /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks.
-    pub(in crate::engine) fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
-        if self.peak_rows.are_none() {
+    pub(super) fn peak(&self, of: PeakOf) -> f64 {
+        let Instant { model, state, point } = *self;
+        if model.peak_rows.are_none() {
             return 0.0;
         }
-        let place = self.peak_rows.place(of);
+        let place = model.peak_rows.place(of);
         let mut known = point.peaks.borrow_mut();
         if known.observation != point.floors.observation {
             known.observation = point.floors.observation;
-            self.read_peaks(state, point, &mut known);
+            model.read_peaks(state, point, &mut known);
         }
         known.peaks.values[place]
     }
+}
 
+impl Model {
     /// Works out the peaks at the observed time.
     #[inline(never)]
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {

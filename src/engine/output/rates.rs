@@ -4,67 +4,66 @@
 //! They are right-hand derivatives, after an event or a corner of the ground motion: those of the solution from here
 //! on, under the inputs as set so far.
 
+use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Phase;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
+use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{ContactOutput as C, ContactRates, Rates};
-use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
-use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
-impl Model {
-    /// Works out the derivatives at the present time of the state, from which `point` was observed.
-    pub(in crate::engine) fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
-        let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.buffers()));
-        rates.clear(self.system.structure.lanes);
-        let slope = match &self.system.ground {
+impl Instant<'_> {
+    /// Works out the derivatives with respect to time, of which [`Instant::rates`] reads; the memory of `rates` is
+    /// reused.
+    ///
+    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on
+    /// them, are 0.
+    pub fn differentiate(&self, rates: &mut PointRates) {
+        let Instant { model: Model { system, .. }, state, point } = *self;
+        let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.model.buffers()));
+        rates.clear(system.structure.lanes);
+        let slope = match &system.ground {
             Some(_) => state.base.segment.slope,
             None => state.inputs.ground_acceleration.slope(),
         };
         rates.ground_acceleration = [slope, 0.0];
-        let shares = self.system.participation(point.coordinates);
-        let absolute = &self.accelerations(point).absolute;
+        let shares = system.participation(point.coordinates);
+        let absolute = &self.accelerations().absolute;
         for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(absolute).zip(shares) {
             *relative = absolute - share * point.ground_acceleration;
         }
-        rates.is_beginning = self.differentiate_penetrations(state, point, rates, &mut work);
-        self.list_pressing(&state.base, point, &mut work);
-        self.differentiate_again(0, state, point, rates, &mut work);
+        rates.is_beginning = self.differentiate_penetrations(rates, &mut work);
+        self.list_pressing(&mut work);
+        self.differentiate_again(0, rates, &mut work);
         if !rates.is_beginning {
-            self.differentiate_again(1, state, point, rates, &mut work);
+            self.differentiate_again(1, rates, &mut work);
         }
         for (p, contact) in rates.contacts.iter_mut().enumerate() {
-            let shown = self.contact(state, point, p);
+            let shown = self.contact(p);
             let ([v, a], force) = (contact[C::Penetration], contact[C::Force]);
             contact[C::Impulse] = [shown.force, force[0]];
             contact[C::DissipatedEnergy] = [shown.force * v, force[0] * v + shown.force * a];
             let is_peak = shown.force > 0.0 && shown.force >= (1.0 - PEAK_ROUNDING) * shown.peak_force;
             contact[C::PeakForce] = if is_peak && force[0] > 0.0 { force } else { [0.0; 2] };
         }
-        rates.energy = self.differentiate_energy(state, point, rates, &mut work);
+        rates.energy = self.differentiate_energy(rates, &mut work);
         rates.work = Some(work);
     }
 
     /// Works out the rates of the penetrations and lists the present force laws; returns whether any contact is just
     /// beginning.
-    fn differentiate_penetrations(
-        &self,
-        state: &State,
-        point: &Point,
-        rates: &mut PointRates,
-        work: &mut Buffers,
-    ) -> bool {
+    fn differentiate_penetrations(&self, rates: &mut PointRates, work: &mut Buffers) -> bool {
+        let Instant { model: Model { system, .. }, state, point } = *self;
         let elapsed = state.since_base();
         state.step.set_powers(elapsed, &mut work.powers);
         let mut is_beginning = false;
-        for p in 0..self.system.pairs.len() {
-            let contact = state.step.contact_at(&self.system, &state.base, p, elapsed, &work.powers);
-            let relative = |motion: &[f64]| self.system.pairs[p].relative(point.coordinates, motion);
+        for p in 0..system.pairs.len() {
+            let contact = state.step.contact_at(system, &state.base, p, elapsed, &work.powers);
+            let relative = |motion: &[f64]| system.pairs[p].relative(point.coordinates, motion);
             let penetration = match contact.phase {
-                Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
+                Phase::Held if self.contact(p).force > 0.0 => [0.0; 2],
                 Phase::Held => [0.0, relative(&rates.acceleration)],
                 Phase::Apart => [relative(&point.v), relative(&rates.acceleration)],
                 Phase::Engaged | Phase::Slack => [contact.rate, relative(&rates.acceleration)],
@@ -80,114 +79,81 @@ impl Model {
     }
 
     /// Lists the rigid pairs that press at this instant and makes them all active.
-    pub(in crate::engine) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Buffers) {
+    pub(super) fn list_pressing(&self, work: &mut Buffers) {
+        let Instant { model: Model { system, .. }, state, .. } = *self;
         work.rigid.clear();
-        let pressing = |p: usize| base.contacts[p].is_held() && self.contact_in(base, point, p).force > 0.0;
-        for (k, _) in self.system.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
+        let pressing = |p: usize| state.base.contacts[p].is_held() && self.contact(p).force > 0.0;
+        for (k, _) in system.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
             work.rigid.add(k, 0.0, 0.0);
         }
-        work.rigid.close_all(&self.system.rigid.matrix);
+        work.rigid.close_all(&system.rigid.matrix);
     }
 
     /// Differentiates the equations of motion once (`order` 0) and twice (1): for the third and fourth derivative of
     /// the motion and the first and second of the contact forces. Where a contact is just beginning, only for the parts
     /// by stiffness and damping.
-    fn differentiate_again(
-        &self,
-        order: usize,
-        state: &State,
-        point: &Point,
-        rates: &mut PointRates,
-        work: &mut Buffers,
-    ) {
+    fn differentiate_again(&self, order: usize, rates: &mut PointRates, work: &mut Buffers) {
+        let Instant { model: Model { system, .. }, state, point } = *self;
         let coordinates = point.coordinates;
         let PointRates { contacts, acceleration, jerk, snap, resisted, forces, ground_acceleration, .. } = rates;
         let Buffers { load, rigid, .. } = work;
         let resisted = &mut resisted[order];
         let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
-        self.system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
-        self.system.yield_to(coordinates, &point.storeys, motion.0, resisted);
+        system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
+        system.yield_to(coordinates, &point.storeys, motion.0, resisted);
         if rates.is_beginning {
             return;
         }
         load.fill(0.0);
         if order == 0 {
-            for (load, share) in load.iter_mut().zip(self.system.participation(coordinates)) {
+            for (load, share) in load.iter_mut().zip(system.participation(coordinates)) {
                 *load = -share * ground_acceleration[0];
             }
-            self.system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
+            system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
         }
         for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
             let [v, a] = contact[C::Penetration];
-            let third = if order == 0 { 0.0 } else { self.system.pairs[p].relative(coordinates, jerk) };
+            let third = if order == 0 { 0.0 } else { system.pairs[p].relative(coordinates, jerk) };
             let rate = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
             contact[C::Force][order] = rate;
-            self.system.push_apart_by(p, coordinates, rate, load);
+            system.push_apart_by(p, coordinates, rate, load);
         }
         let next = if order == 0 { jerk } else { snap };
         for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
             *next = load + resisted;
         }
-        self.system.constrain(rigid, next);
+        system.constrain(rigid, next);
         for (&k, rate) in rigid.pairs.iter().zip(&rigid.found) {
-            contacts[self.system.rigid.pairs[k]][C::Force][order] = *rate;
+            contacts[system.rigid.pairs[k]][C::Force][order] = *rate;
         }
     }
 
-    /// Rates of a floor's displacement relative to the ground, m/s and m/s2.
-    pub(in crate::engine) fn displacement_rates(
-        &self,
-        point: &Point,
-        rates: &PointRates,
-        side: Side,
-        floor: usize,
-    ) -> Rates {
-        self.displacement_rates_of(point, rates, self.system.structure.floors.lane(side as usize, floor))
+    /// Rates of the displacement of a lane relative to the ground, m/s and m/s2.
+    pub(super) fn displacement_rates(&self, rates: &PointRates, lane: usize) -> Rates {
+        self.at_lane(lane, [&self.point.v, &rates.acceleration])
     }
 
-    /// The same of a lane.
-    pub(in crate::engine) fn displacement_rates_of(&self, point: &Point, rates: &PointRates, lane: usize) -> Rates {
-        self.at_lane(point, lane, [&point.v, &rates.acceleration])
+    /// Rates of the velocity of a lane relative to the ground, m/s2 and m/s3.
+    pub(super) fn velocity_rates(&self, rates: &PointRates, lane: usize) -> Rates {
+        self.at_lane(lane, [&rates.acceleration, &rates.jerk])
     }
 
-    /// Rates of a floor's velocity relative to the ground, m/s2 and m/s3.
-    pub(in crate::engine) fn velocity_rates(
-        &self,
-        point: &Point,
-        rates: &PointRates,
-        side: Side,
-        floor: usize,
-    ) -> Rates {
-        let lane = self.system.structure.floors.lane(side as usize, floor);
-        self.at_lane(point, lane, [&rates.acceleration, &rates.jerk])
-    }
-
-    /// Rates of a floor's absolute acceleration, m/s3 and m/s4.
-    pub(in crate::engine) fn acceleration_rates(
-        &self,
-        point: &Point,
-        rates: &PointRates,
-        side: Side,
-        floor: usize,
-    ) -> Rates {
-        self.acceleration_rates_of(point, rates, self.system.structure.floors.lane(side as usize, floor))
-    }
-
-    /// The same of a lane.
-    pub(in crate::engine) fn acceleration_rates_of(&self, point: &Point, rates: &PointRates, lane: usize) -> Rates {
-        let [jerk, snap] = self.at_lane(point, lane, [&rates.jerk, &rates.snap]);
+    /// Rates of the absolute acceleration of a lane, m/s3 and m/s4.
+    pub(super) fn acceleration_rates(&self, rates: &PointRates, lane: usize) -> Rates {
+        let [jerk, snap] = self.at_lane(lane, [&rates.jerk, &rates.snap]);
         [jerk + rates.ground_acceleration[0], snap]
     }
 
     /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
-    pub(in crate::engine) fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
+    pub(super) fn base_shear_rates(&self, rates: &PointRates, side: Side) -> Rates {
+        let Instant { model: Model { system, .. }, point, .. } = *self;
         let PointRates { acceleration, jerk, resisted, .. } = rates;
-        let yielded = |motion: &[f64]| self.system.yielded_base_shear(point.coordinates, &point.storeys, side, motion);
+        let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.storeys, side, motion);
         let [first, second] = match point.coordinates {
             Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
-                .map(|(motion, rate)| self.system.structure.base_shear(side, motion, rate) - yielded(motion)),
+                .map(|(motion, rate)| system.structure.base_shear(side, motion, rate) - yielded(motion)),
             Coordinates::Floors => {
-                [0, 1].map(|order| self.system.structure.floors.base_shear(side as usize, &resisted[order]))
+                [0, 1].map(|order| system.structure.floors.base_shear(side as usize, &resisted[order]))
             }
         };
         [first, if rates.is_beginning { 0.0 } else { second }]

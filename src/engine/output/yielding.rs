@@ -2,76 +2,55 @@
 
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::model::Model;
+use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{Rates, YieldingOf};
-use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
-use crate::engine::state::State;
 use crate::engine::yielding::element::{Element, Present};
 use crate::structure::Side;
 
-impl Model {
+impl<'a> Instant<'a> {
     /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, the shear
     /// is that of its drift, everything else 0.
-    pub(in crate::engine) fn of_yielding(
-        &self,
-        state: &State,
-        point: &Point,
-        of: YieldingOf,
-        place: (Side, usize),
-    ) -> f64 {
-        let Some((storey, present)) = self.yielding_storey(point, place) else {
-            let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
-            return if of == YieldingOf::Shear { elastic * self.drift(point, place) } else { 0.0 };
+    pub(super) fn of_yielding(&self, of: YieldingOf, place: (Side, usize)) -> f64 {
+        let Some((storey, present)) = self.yielding_storey(place) else {
+            return if of == YieldingOf::Shear { self.elastic_stiffness(place) * self.drift(place) } else { 0.0 };
         };
-        let now = present.0;
+        let (now, point) = (present.0, self.point);
+        let largest_drift = || storey.largest_drift(now, self.peak(PeakOf::Drift(place.0, place.1)));
         match of {
             YieldingOf::Shear => storey.shear(present, storey.drift(point.coordinates, &point.q)),
             YieldingOf::PlasticDrift => now.plastic,
             YieldingOf::ResidualDrift => storey.residual_drift(now, &point.storeys),
-            YieldingOf::Ductility => {
-                storey.largest_drift(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))) / storey.limit
-            }
-            YieldingOf::PeakStabilityIndex => {
-                let peak = self.peak(state, point, PeakOf::Drift(place.0, place.1));
-                storey.critical.map_or(0.0, |critical| storey.largest_drift(now, peak) / critical)
-            }
+            YieldingOf::Ductility => largest_drift() / storey.limit,
+            YieldingOf::PeakStabilityIndex => storey.critical.map_or(0.0, |critical| largest_drift() / critical),
             YieldingOf::HystereticEnergy => storey.hysteretic_energy(now),
             YieldingOf::CumulativePlasticDrift => now.cumulative.exact(),
         }
     }
 
     /// The sense in which a storey yields, 1 or -1; 0 while it is elastic.
-    pub(in crate::engine) fn yielding(&self, point: &Point, place: (Side, usize)) -> f64 {
-        self.yielding_storey(point, place).and_then(|(_, (now, _))| now.yields).map_or(0.0, Sense::sign)
+    pub(super) fn yielding(&self, place: (Side, usize)) -> f64 {
+        self.yielding_storey(place).map_or(0.0, |(_, (now, _))| flow(now))
     }
 
     /// Rates of a quantity of a storey.
-    pub(in crate::engine) fn yielding_rates(
-        &self,
-        point: &Point,
-        rates: &PointRates,
-        of: YieldingOf,
-        place: (Side, usize),
-    ) -> Rates {
-        let Some((storey, (now, _))) = self.yielding_storey(point, place) else {
-            let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
-            let factor = if of == YieldingOf::Shear { elastic } else { 0.0 };
-            return self.drift_rates(point, rates, place).map(|rate| factor * rate);
+    pub(super) fn yielding_rates(&self, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
+        let Some((storey, (now, _))) = self.yielding_storey(place) else {
+            let factor = if of == YieldingOf::Shear { self.elastic_stiffness(place) } else { 0.0 };
+            return self.drift_rates(rates, place).map(|rate| factor * rate);
         };
-        let motions = [&point.v, &rates.acceleration];
-        let drift = motions.map(|motion| storey.drift(point.coordinates, motion));
-        let flow = now.yields.map_or(0.0, Sense::sign);
+        let motions = [&self.point.v, &rates.acceleration];
+        let drift = motions.map(|motion| storey.drift(self.point.coordinates, motion));
+        let flow = flow(now);
         let factor = match of {
             YieldingOf::Shear => storey.stiffness(now),
             YieldingOf::PlasticDrift => flow.abs(),
             YieldingOf::ResidualDrift => {
                 let own = drift.map(|rate| flow.abs() * rate);
-                let rate = |order: usize| {
-                    storey.residual_rate((now, &point.storeys), own[order], self.flows(point, motions[order]))
-                };
-                return [0, 1].map(rate);
+                let present = (now, &self.point.storeys[..]);
+                return [0, 1].map(|order| storey.residual_rate(present, own[order], self.flows(motions[order])));
             }
             YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
             YieldingOf::CumulativePlasticDrift => flow,
@@ -85,42 +64,49 @@ impl Model {
     }
 
     /// The drift, m, of which a quantity of a storey that can yield and has not is the share that the peak drift has reached.
-    pub(in crate::engine) fn unused_drift(&self, point: &Point, of: YieldingOf, place: (Side, usize)) -> Option<f64> {
-        let (storey, (now, _)) = self.yielding_storey(point, place)?;
+    pub(super) fn unused_drift(&self, of: YieldingOf, place: (Side, usize)) -> Option<f64> {
+        let (storey, (now, _)) = self.yielding_storey(place)?;
         drift_of_share(storey, of).filter(|_| now.furthest == 0.0)
     }
 
-    /// The largest shear so far of a storey that has yielded, N, and its rates.
-    pub(in crate::engine) fn yielded_shear(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
-        let (storey, (now, _)) = self.yielding_storey(point, place)?;
+    /// The largest shear so far of a storey that has yielded, N.
+    pub(super) fn yielded_shear(&self, place: (Side, usize)) -> Option<f64> {
+        let (storey, (now, _)) = self.yielding_storey(place)?;
         (now.furthest > 0.0).then(|| storey.peak_shear(now))
     }
 
-    /// Rates of the largest shear so far of a storey that has yielded, N/s and N/s2.
-    pub(in crate::engine) fn yielded_shear_rates(
-        &self,
-        point: &Point,
-        rates: &PointRates,
-        place: (Side, usize),
-    ) -> Option<Rates> {
-        let (storey, (now, _)) = self.yielding_storey(point, place).filter(|(_, (now, _))| now.furthest > 0.0)?;
-        let sign = now.yields.filter(|_| is_furthest(now)).map_or(0.0, Sense::sign);
-        let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(point.coordinates, motion);
-        Some([rate(&point.v), rate(&rates.acceleration)])
+    /// Its rates, N/s and N/s2.
+    pub(super) fn yielded_shear_rates(&self, rates: &PointRates, place: (Side, usize)) -> Option<Rates> {
+        let (storey, (now, _)) = self.yielding_storey(place).filter(|(_, (now, _))| now.furthest > 0.0)?;
+        let sign = if is_furthest(now) { flow(now) } else { 0.0 };
+        let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(self.point.coordinates, motion);
+        Some([rate(&self.point.v), rate(&rates.acceleration)])
     }
 
     /// Rates of the plastic drifts of all elements, from those of the motion.
-    fn flows<'a>(&'a self, point: &'a Point, motion: &'a [f64]) -> impl Iterator<Item = f64> {
-        self.system.storeys.iter().zip(&point.storeys).map(|(of, storey)| match storey.yields {
+    fn flows(&self, motion: &'a [f64]) -> impl Iterator<Item = f64> {
+        let Instant { model, point, .. } = *self;
+        model.system.storeys.iter().zip(&point.storeys).map(|(of, storey)| match storey.yields {
             Some(_) => of.drift(point.coordinates, motion),
             None => 0.0,
         })
     }
 
-    fn yielding_storey<'a>(&'a self, point: &'a Point, place: (Side, usize)) -> Option<(&'a Element, Present<'a>)> {
-        let i = self.system.number_of_storey(place)?;
-        (i < point.storeys.len()).then(|| self.system.element(i, &point.storeys))
+    /// Shear of a storey that cannot yield over its drift, N/m.
+    fn elastic_stiffness(&self, place: (Side, usize)) -> f64 {
+        self.model.storeys.per_drift(StoreyPeak::Shear, place)
     }
+
+    fn yielding_storey(&self, place: (Side, usize)) -> Option<(&'a Element, Present<'a>)> {
+        let Instant { model: Model { system, .. }, point, .. } = *self;
+        let i = system.number_of_storey(place)?;
+        (i < point.storeys.len()).then(|| system.element(i, &point.storeys))
+    }
+}
+
+/// The sense in which a storey or a spring yields, 1 or -1; 0 while it is elastic.
+pub(super) fn flow(now: &Storey) -> f64 {
+    now.yields.map_or(0.0, Sense::sign)
 }
 
 /// The drift, m, of which a quantity is the share that the largest drift has reached.

@@ -24,6 +24,26 @@ pub(in crate::fmi) const fn v3(call: Call) -> Function {
     Function { version: FmiVersion::V3, call }
 }
 
+/// The functions of a version that take an instance: name and call, the other arguments, and what comes to the instance
+/// behind the fence.
+macro_rules! functions {
+    ($version:ident: $(
+        $(#[$about:meta])*
+        $name:ident = $call:ident($($argument:ident: $ty:ty),* $(,)?) |$instance:ident| $body:expr;
+    )+) => {$(
+        $(#[$about])*
+        #[cfg_attr(fmi_exports, unsafe(no_mangle))]
+        pub unsafe extern "C" fn $name(
+            c: $crate::fmi::common::types::Component, $($argument: $ty),*
+        ) -> std::ffi::c_int {
+            let function = $crate::fmi::common::fence::$version($crate::slave::Call::$call);
+            // SAFETY: as the module says.
+            unsafe { $crate::fmi::common::fence::with_instance(c, function, |$instance| $body) }
+        }
+    )+};
+}
+pub(in crate::fmi) use functions;
+
 /// Checks instance, version and call sequence, runs the body, turns its result or its panic into a status, and logs.
 ///
 /// A panic is `fmi2Fatal` (`fmi3Fatal`) and the instance answers so from then on: the state that the panic broke is never

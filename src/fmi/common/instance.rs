@@ -1,6 +1,6 @@
 //! The life of an instance, from its making to `fmi2FreeInstance` or `fmi3FreeInstance`.
 
-use super::arguments::{boolean, bytes_in, slice_in, str_in};
+use super::arguments::{boolean, bytes_in, slice_in, str_in, strs_in};
 use super::logger::Logger;
 use super::panics::caught;
 use super::types::{Component, Text, ValueReference};
@@ -116,6 +116,33 @@ unsafe fn slave<const N: usize>(
         }
         _ => Err(Refusal { problems }),
     }
+}
+
+/// Chooses the log categories.
+///
+/// # Safety
+/// As `fmi/mod.rs` says, with as many categories as they are counted.
+pub(in crate::fmi) unsafe fn choose_logging(
+    instance: &mut Instance,
+    on: impl Into<c_int>,
+    (categories, n): (*const Text, usize),
+) -> Result<(), Refusal> {
+    // SAFETY: the caller's promise.
+    let categories = unsafe { strs_in("categories", categories, n) }?;
+    instance.slave.set_debug_logging(boolean(instance.slave.version(), "loggingOn", on)?, &categories)
+}
+
+/// Tolerance, start and end of a run, the first and the last where they are defined.
+pub(in crate::fmi) fn set_up(
+    instance: &mut Instance,
+    (has_tolerance, tolerance): (impl Into<c_int>, f64),
+    start: f64,
+    (has_stop, stop): (impl Into<c_int>, f64),
+) -> Result<(), Refusal> {
+    let version = instance.slave.version();
+    let tolerance = boolean(version, "toleranceDefined", has_tolerance)?.then_some(tolerance);
+    let stop = boolean(version, "stopTimeDefined", has_stop)?.then_some(stop);
+    instance.slave.setup_experiment(tolerance, start, stop)
 }
 
 /// Does the work of a call in which the master has turns, or messages that it may answer. A component that it frees

@@ -2,12 +2,12 @@
 
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions};
 use crate::FmiVersion;
-use crate::fmi::common::arguments::{boolean, bytes_in, strs_in};
-use crate::fmi::common::fence::{v2, with_instance};
-use crate::fmi::common::instance::{Request, create, free};
+use crate::fmi::common::arguments::bytes_in;
+use crate::fmi::common::fence::functions;
+use crate::fmi::common::instance::{Request, choose_logging, create, free, set_up};
 use crate::fmi::common::logger::Logger;
 use crate::fmi::common::types::{Component, Text};
-use crate::slave::{Call, Interface};
+use crate::slave::Interface;
 use std::ffi::c_int;
 use std::ptr::null_mut;
 
@@ -19,17 +19,6 @@ pub extern "C" fn fmi2GetTypesPlatform() -> Text {
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
 pub extern "C" fn fmi2GetVersion() -> Text {
     c"2.0".as_ptr()
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const Text) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::SetDebugLogging), |instance| {
-            let categories = strs_in("categories", categories, n)?;
-            instance.slave.set_debug_logging(boolean(FmiVersion::V2, "loggingOn", on)?, &categories)
-        })
-    }
 }
 
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
@@ -70,45 +59,15 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     unsafe { free(c) }
 }
 
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: Component,
-    tolerance_defined: Boolean,
-    tolerance: f64,
-    start_time: f64,
-    stop_time_defined: Boolean,
-    stop_time: f64,
-) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::SetupExperiment), |instance| {
-            let tolerance = boolean(FmiVersion::V2, "toleranceDefined", tolerance_defined)?.then_some(tolerance);
-            let stop_time = boolean(FmiVersion::V2, "stopTimeDefined", stop_time_defined)?.then_some(stop_time);
-            instance.slave.setup_experiment(tolerance, start_time, stop_time)
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v2(Call::EnterInitializationMode), |instance| Ok(instance.slave.enter_initialization())) }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v2(Call::ExitInitializationMode), |instance| instance.slave.exit_initialization()) }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2Terminate(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v2(Call::Terminate), |instance| Ok(instance.slave.terminate())) }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2Reset(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v2(Call::Reset), |instance| Ok(instance.slave.reset())) }
+functions! { v2:
+    fmi2SetDebugLogging = SetDebugLogging(on: Boolean, n: usize, categories: *const Text) |instance| {
+        choose_logging(instance, on, (categories, n))
+    };
+    fmi2SetupExperiment = SetupExperiment(
+        tolerance_defined: Boolean, tolerance: f64, start_time: f64, stop_time_defined: Boolean, stop_time: f64
+    ) |instance| set_up(instance, (tolerance_defined, tolerance), start_time, (stop_time_defined, stop_time));
+    fmi2EnterInitializationMode = EnterInitializationMode() |instance| Ok(instance.slave.enter_initialization());
+    fmi2ExitInitializationMode = ExitInitializationMode() |instance| instance.slave.exit_initialization();
+    fmi2Terminate = Terminate() |instance| Ok(instance.slave.terminate());
+    fmi2Reset = Reset() |instance| Ok(instance.slave.reset());
 }

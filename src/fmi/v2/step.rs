@@ -2,80 +2,44 @@
 
 use super::types::Boolean;
 use crate::fmi::common::arguments::store;
-use crate::fmi::common::fence::{v2, with_instance};
-use crate::fmi::common::types::{Component, Text};
+use crate::fmi::common::fence::functions;
+use crate::fmi::common::instance::Instance;
+use crate::fmi::common::types::Text;
 use crate::slave::{Call, Refusal, Status, StatusKind};
 use std::ffi::c_int;
 
-/// What the master says about its plans for earlier states is not used: masters say it wrongly.
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2DoStep(c: Component, current: f64, step: f64, _no_set_state_before: Boolean) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::DoStep), |instance| instance.slave.do_step(current, step).map(|step| step.status))
-    }
+functions! { v2:
+    /// What the master says about its plans for earlier states is not used: masters say it wrongly.
+    fmi2DoStep = DoStep(current: f64, step: f64, _no_set_state_before: Boolean) |instance| {
+        instance.slave.do_step(current, step).map(|step| step.status)
+    };
+    fmi2GetStatus = GetStatus(kind: c_int, _value: *mut c_int) |instance| {
+        no_status(instance, Call::GetStatus, status_kind(kind)?)
+    };
+    fmi2GetRealStatus = GetRealStatus(kind: c_int, value: *mut f64) |instance| match status_kind(kind)? {
+        StatusKind::LastSuccessfulTime => {
+            store("value", value, instance.slave.last_successful_time()).map(Status::from)
+        }
+        other => no_status(instance, Call::GetRealStatus, other),
+    };
+    fmi2GetIntegerStatus = GetIntegerStatus(kind: c_int, _value: *mut c_int) |instance| {
+        no_status(instance, Call::GetIntegerStatus, status_kind(kind)?)
+    };
+    fmi2GetBooleanStatus = GetBooleanStatus(kind: c_int, value: *mut Boolean) |instance| match status_kind(kind)? {
+        StatusKind::Terminated => store("value", value, Boolean::from(instance.slave.is_over())).map(Status::from),
+        other => no_status(instance, Call::GetBooleanStatus, other),
+    };
+    fmi2GetStringStatus = GetStringStatus(kind: c_int, _value: *mut Text) |instance| {
+        no_status(instance, Call::GetStringStatus, status_kind(kind)?)
+    };
+    /// For asynchronous steps, which the description does not declare: no step is ever in progress.
+    fmi2CancelStep = CancelStep() |_instance| {
+        Err::<(), _>(Refusal::from("this FMU does not declare canRunAsynchronuously".to_owned()))
+    };
 }
 
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2GetStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::GetStatus), |instance| {
-            Ok(instance.slave.no_status(Call::GetStatus, status_kind(kind)?))
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2GetRealStatus(c: Component, kind: c_int, value: *mut f64) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::GetRealStatus), |instance| match status_kind(kind)? {
-            StatusKind::LastSuccessfulTime => {
-                store("value", value, instance.slave.last_successful_time()).map(Status::from)
-            }
-            other => Ok(instance.slave.no_status(Call::GetRealStatus, other)),
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::GetIntegerStatus), |instance| {
-            Ok(instance.slave.no_status(Call::GetIntegerStatus, status_kind(kind)?))
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: *mut Boolean) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::GetBooleanStatus), |instance| match status_kind(kind)? {
-            StatusKind::Terminated => store("value", value, Boolean::from(instance.slave.is_over())).map(Status::from),
-            other => Ok(instance.slave.no_status(Call::GetBooleanStatus, other)),
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut Text) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v2(Call::GetStringStatus), |instance| {
-            Ok(instance.slave.no_status(Call::GetStringStatus, status_kind(kind)?))
-        })
-    }
-}
-
-/// For asynchronous steps, which the description does not declare: no step is ever in progress.
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi2CancelStep(c: Component) -> c_int {
-    let refusal = || Refusal::from("this FMU does not declare canRunAsynchronuously".to_owned());
-    // SAFETY: as the module says.
-    unsafe { with_instance::<()>(c, v2(Call::CancelStep), |_| Err(refusal())) }
+fn no_status(instance: &mut Instance, call: Call, kind: StatusKind) -> Result<Status, Refusal> {
+    Ok(instance.slave.no_status(call, kind))
 }
 
 /// `fmi2StatusKind`

@@ -2,29 +2,16 @@
 
 use super::types::Boolean;
 use crate::FmiVersion::V3;
-use crate::fmi::common::arguments::{boolean, strs_in};
-use crate::fmi::common::fence::{v3, with_instance};
-use crate::fmi::common::instance::{Request, create, free};
+use crate::fmi::common::fence::functions;
+use crate::fmi::common::instance::{Request, choose_logging, create, free, set_up};
 use crate::fmi::common::logger::{LogMessage, Logger};
 use crate::fmi::common::types::{Component, ComponentEnvironment, Text, ValueReference};
 use crate::fmi::common::updater::{IntermediateUpdate, Updater};
-use crate::slave::{Call, Interface};
-use std::ffi::c_int;
+use crate::slave::Interface;
 
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
 pub extern "C" fn fmi3GetVersion() -> Text {
     c"3.0".as_ptr()
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi3SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const Text) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v3(Call::SetDebugLogging), |instance| {
-            let categories = strs_in("categories", categories, n)?;
-            instance.slave.set_debug_logging(boolean(V3, "loggingOn", on)?, &categories)
-        })
-    }
 }
 
 /// Variables of intermediate updates without a function for them are not looked at: some masters name them all the same.
@@ -73,41 +60,18 @@ pub unsafe extern "C" fn fmi3FreeInstance(c: Component) {
     unsafe { free(c) }
 }
 
-/// What `fmi2SetupExperiment` is in FMI 2.0 belongs to it.
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi3EnterInitializationMode(
-    c: Component,
-    tolerance_defined: Boolean,
-    tolerance: f64,
-    start_time: f64,
-    stop_time_defined: Boolean,
-    stop_time: f64,
-) -> c_int {
-    // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v3(Call::EnterInitializationMode), |instance| {
-            let tolerance = boolean(V3, "toleranceDefined", tolerance_defined)?.then_some(tolerance);
-            let stop_time = boolean(V3, "stopTimeDefined", stop_time_defined)?.then_some(stop_time);
-            instance.slave.setup_experiment(tolerance, start_time, stop_time)?;
-            Ok(instance.slave.enter_initialization())
-        })
-    }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v3(Call::ExitInitializationMode), |instance| instance.slave.exit_initialization()) }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi3Terminate(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v3(Call::Terminate), |instance| Ok(instance.slave.terminate())) }
-}
-
-#[cfg_attr(fmi_exports, unsafe(no_mangle))]
-pub unsafe extern "C" fn fmi3Reset(c: Component) -> c_int {
-    // SAFETY: as the module says.
-    unsafe { with_instance(c, v3(Call::Reset), |instance| Ok(instance.slave.reset())) }
+functions! { v3:
+    fmi3SetDebugLogging = SetDebugLogging(on: Boolean, n: usize, categories: *const Text) |instance| {
+        choose_logging(instance, on, (categories, n))
+    };
+    /// What `fmi2SetupExperiment` is in FMI 2.0 belongs to it.
+    fmi3EnterInitializationMode = EnterInitializationMode(
+        tolerance_defined: Boolean, tolerance: f64, start_time: f64, stop_time_defined: Boolean, stop_time: f64
+    ) |instance| {
+        set_up(instance, (tolerance_defined, tolerance), start_time, (stop_time_defined, stop_time))?;
+        Ok(instance.slave.enter_initialization())
+    };
+    fmi3ExitInitializationMode = ExitInitializationMode() |instance| instance.slave.exit_initialization();
+    fmi3Terminate = Terminate() |instance| Ok(instance.slave.terminate());
+    fmi3Reset = Reset() |instance| Ok(instance.slave.reset());
 }
