@@ -115,22 +115,22 @@ fn least(slot: Slot) -> Option<f64> {
     use EnergyOutput as E;
     use FoundationOutput as F;
     use YieldingOf as Y;
-    let is_negative = match slot {
-        Slot::Input(_) | Slot::Parameter(Parameter::Gap(_) | Parameter::GroundScale | Parameter::GroundRecord) => true,
-        Slot::Parameter(_) | Slot::Calculated(_) => false,
-        Slot::Output(output) => !matches!(
-            output,
-            Output::Peak(_)
-                | Output::OfStorey(..)
-                | Output::OfYielding(Y::Ductility | Y::HystereticEnergy | Y::CumulativePlasticDrift, ..)
-                | Output::OfYielding(Y::PeakStabilityIndex, ..)
-                | Output::Contact(_, C::Impacts | C::PeakForce | C::ApproachVelocity)
-                | Output::Link(_, LinkOutput::SlipTravel)
-                | Output::Foundation(_, F::PeakDisplacement | F::PeakRotation | F::PeakForce | F::PeakMoment)
-                | Output::Impacts
-                // Sums of squares; the others are sums of work, rounded to either side of 0.
-                | Output::Energy(E::Kinetic | E::Strain | E::Hysteretic)
-        ),
+    let is_never_negative = match slot {
+        Slot::Input(_) => false,
+        Slot::Parameter(of) => !matches!(of, Parameter::Gap(_) | Parameter::GroundScale | Parameter::GroundRecord),
+        Slot::Calculated(_) => true,
+        Slot::Output(of) => match of {
+            Output::Peak(_) | Output::OfStorey(..) | Output::Impacts => true,
+            Output::OfYielding(of, ..) => !matches!(of, Y::Shear | Y::PlasticDrift | Y::ResidualDrift),
+            Output::Contact(_, of) => matches!(of, C::Impacts | C::PeakForce | C::ApproachVelocity),
+            Output::Link(_, of) => of == LinkOutput::SlipTravel,
+            Output::Foundation(_, of) => {
+                matches!(of, F::PeakDisplacement | F::PeakRotation | F::PeakForce | F::PeakMoment)
+            }
+            // Sums of squares; the others are sums of work, rounded to either side of 0.
+            Output::Energy(of) => matches!(of, E::Kinetic | E::Strain | E::Hysteretic),
+            _ => false,
+        },
     };
-    (!is_negative).then_some(0.0)
+    is_never_negative.then_some(0.0)
 }

@@ -24,8 +24,8 @@ pub(in crate::fmi) const fn v3(call: Call) -> Function {
     Function { version: FmiVersion::V3, call }
 }
 
-/// The functions of a version that take an instance: name and call, the other arguments, and what comes to the instance
-/// behind the fence.
+/// The functions of a version that take an instance: name and call, the other arguments, and what is done with the
+/// instance behind the fence. That may rely on what the module says of a caller: it is within an `unsafe` block.
 macro_rules! functions {
     ($version:ident: $(
         $(#[$about:meta])*
