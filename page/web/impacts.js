@@ -19,7 +19,9 @@ const COLUMNS = [
 const AT_ONCE = 60;
 const BATCH = 300;
 const MOST_ROWS = 3000;
-const idle = globalThis.requestIdleCallback ?? ((act) => setTimeout(act, 30));
+// A busy machine may leave no idle time at all.
+const LATEST = { timeout: 200 };
+const idle = (act) => globalThis.requestIdleCallback?.(act, LATEST) ?? setTimeout(act, 30);
 
 export class Impacts {
   constructor(state) {
