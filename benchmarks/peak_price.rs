@@ -85,13 +85,13 @@ fn run(
 }
 
 fn floors(model: &Model) -> impl Iterator<Item = (Side, usize)> {
-    [Side::Left, Side::Right].into_iter().flat_map(|side| (0..model.floors(side)).map(move |floor| (side, floor)))
+    Side::BOTH.into_iter().flat_map(|side| (0..model.floors(side)).map(move |floor| (side, floor)))
 }
 
 fn peaks(now: Instant<'_>) -> impl Iterator<Item = f64> {
     let of_floors = floors(now.model()).flat_map(|(side, floor)| {
         [PeakOf::Displacement(side, floor), PeakOf::Drift(side, floor), PeakOf::Acceleration(side, floor)]
     });
-    let all = of_floors.chain([Side::Left, Side::Right].map(PeakOf::BaseShear));
+    let all = of_floors.chain(Side::BOTH.map(PeakOf::BaseShear));
     all.map(move |of| now.read(Output::Peak(of)))
 }

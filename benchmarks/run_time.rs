@@ -128,13 +128,13 @@ fn solve(
     for row in 0..=(stop / step).round() as u64 {
         model.advance(state, row as f64 * step, &mut |_| ())?;
         let now = model.observe(state, point);
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             readings.extend((0..model.floors(side)).map(|floor| now.read(Output::Displacement(side, floor))));
         }
     }
     if let Way::Whole = way {
         let now = model.observed(state, point);
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             let peak = |floor| now.read(Output::Peak(PeakOf::Displacement(side, floor)));
             readings.extend((0..model.floors(side)).map(peak));
         }

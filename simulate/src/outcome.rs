@@ -109,7 +109,7 @@ impl Follower {
     pub fn look(&mut self, now: &Instant<'_>) {
         let Experiment { stop, step, .. } = self.experiment;
         let time = now.time();
-        let has_collapsed = [Side::Left, Side::Right].iter().any(|side| now.read(Output::Collapsed(*side)) != 0.0);
+        let has_collapsed = Side::BOTH.iter().any(|side| now.read(Output::Collapsed(*side)) != 0.0);
         if has_collapsed {
             self.end = time;
         }

@@ -234,7 +234,7 @@ impl System {
 
     /// Work over a flight of any length without damping losses and under a constant load.
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
-        self.fly_in(work, base, length);
+        self.fly_in(base, length, work);
         let modal = &mut work.account.modal;
         let [from, to] = [(&base.q, &base.v), (&work.q, &work.v)].map(|(q, v)| {
             let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
@@ -254,7 +254,7 @@ impl System {
             done.viscous += flight.viscous;
             counts
         });
-        self.fly_in(work, base, length);
+        self.fly_in(base, length, work);
     }
 
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.

@@ -55,15 +55,6 @@ pub(super) enum Dense<'a> {
     Window(&'a Window, &'a MotionSeries),
 }
 
-impl System {
-    /// Flies for a time, s, under the load in `work`; leaves the motion then in `work.q`, `work.v`.
-    pub(super) fn fly_in(&self, work: &mut Buffers, base: &Base, length: f64) {
-        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.fly(base, length, work, (&mut q, &mut v));
-        (work.q, work.v) = (q, v);
-    }
-}
-
 impl Step {
     /// No step yet, with memory for any kind.
     pub(super) fn new(system: &System) -> Step {
@@ -194,7 +185,7 @@ impl Step {
         }
         let Some(order) = exact_order(reach) else { return false };
         let end = if self.kind == StepKind::Deferred {
-            system.fly_in(work, base, length);
+            system.fly_in(base, length, work);
             (&work.q[..], &work.v[..])
         } else {
             (&self.planned.q[..], &self.planned.v[..])

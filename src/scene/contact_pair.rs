@@ -94,8 +94,11 @@ impl Face {
 
 impl ContactPair {
     /// Where columns are hit, if they are.
-    pub fn position(&self) -> Option<f64> {
-        self.clone().position_mut().copied()
+    pub const fn position(&self) -> Option<f64> {
+        match (self.left, self.right) {
+            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
+            _ => None,
+        }
     }
 
     /// The same, to be changed.

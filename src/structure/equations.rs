@@ -81,7 +81,7 @@ impl Structure {
         let alone = [(Side::Left, left), (Side::Right, right)].map(|(side, of)| is_linked(side).then_some(of));
         let mut structure = Structure::of_bodies(bodies, floors);
         structure.add_links(scene);
-        structure.shears = [Side::Left, Side::Right].map(|side| {
+        structure.shears = Side::BOTH.map(|side| {
             let modes = alone[side as usize].as_ref()?;
             let building = scene.building(side);
             Some(BaseShear::of((side, building), modes, structure.body(side), &structure.floors))
@@ -99,7 +99,7 @@ impl Structure {
     fn add_links(&mut self, scene: &Scene) {
         let of = |link: &Link| LinkRow::of(link.ends(), (link.stiffness, link.dashpot), &self.bodies, &self.floors);
         let mut links: Vec<LinkRow> = scene.links.iter().map(of).collect();
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             for (place, Soil { stiffness, dashpot }) in soil::springs(scene.building(side)) {
                 let number = Some(links.len());
                 match place {

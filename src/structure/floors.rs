@@ -201,7 +201,7 @@ impl Floors {
     /// Minus the acceleration of a lane by that of the ground: 0 of the rotation of a foundation.
     pub fn share_of_ground(&self, lane: usize) -> f64 {
         let is_rotation = |side: &Side| self.lane_of(*side, Place::Rotation) == Some(lane);
-        if [Side::Left, Side::Right].iter().any(is_rotation) { 0.0 } else { 1.0 }
+        if Side::BOTH.iter().any(is_rotation) { 0.0 } else { 1.0 }
     }
 
     /// `out` -= M^-1 (K u + rate C v), m/s^2 for `rate` 1.
@@ -418,7 +418,7 @@ mod tests {
         let (mut strain, mut viscous, mut damped) = (0.0, 0.0, vec![0.0; u.len()]);
         for (side, building) in [&scene.left, &scene.right].into_iter().enumerate() {
             let [u, v] = [&u, &v].map(|vector| DVector::from_column_slice(floors.of_building(side, vector)));
-            let (k, c) = (stiffness(building), damping(building, structure.modes([Side::Left, Side::Right][side])));
+            let (k, c) = (stiffness(building), damping(building, structure.modes(Side::BOTH[side])));
             let force = &k * &u + 0.7 * (&c * &v);
             let got = floors.of_building(side, &resisted);
             for ((f, mass), got) in force.iter().zip(&building.mass).zip(got) {

@@ -26,8 +26,8 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
             return is_of_net_storey(scene, known, (side, storey));
         }
         Slot::Calculated(Calculated::SystemFrequency(_)) => {
-            let is_of_building = [Side::Left, Side::Right].into_iter().any(|side| is_of_modes(side, known));
-            let is_of_soil = [Side::Left, Side::Right].into_iter().any(|side| is_of_foundation(side, known));
+            let is_of_building = Side::BOTH.into_iter().any(|side| is_of_modes(side, known));
+            let is_of_soil = Side::BOTH.into_iter().any(|side| is_of_foundation(side, known));
             return is_of_building || is_of_soil || matches!(known, Slot::Parameter(Parameter::LinkStiffness(_)));
         }
         Slot::Calculated(Calculated::PeriodRatio(side)) => {
@@ -128,7 +128,7 @@ fn is_of_rest(scene: &Scene, side: Side, known: Slot) -> bool {
         (0..building.mass.len()).any(|i| drifts(building, i) && is_of_net_storey(scene, known, (s, i)))
     };
     let is_displaced = |s: Side| scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
-    let sides = [Side::Left, Side::Right];
+    let sides = Side::BOTH;
     let is_of_springs = match known {
         Slot::Parameter(Parameter::Foundation(s, FoundationKey::RockingStiffness)) => is_within(s),
         Slot::Parameter(Parameter::Foundation(_, FoundationKey::SwayStiffness)) => is_linked,

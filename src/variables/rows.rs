@@ -18,7 +18,7 @@ impl Table {
     pub fn new(scene: &Scene) -> Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             let building = scene.building(side);
             if building.is_absent() {
                 continue;

@@ -32,7 +32,14 @@ impl System {
         interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
     }
 
-    /// The same where damping couples no modes, under a load and its slope; `interval` is memory.
+    /// The same; leaves the motion in `work.q`, `work.v`.
+    pub fn fly_in(&self, base: &Base, h: f64, work: &mut Buffers) {
+        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        self.fly(base, h, work, (&mut q, &mut v));
+        (work.q, work.v) = (q, v);
+    }
+
+    /// The motion `h` seconds after the base where damping couples no modes, under a load and its slope; `interval` is memory.
     pub fn fly_uncoupled(
         &self,
         base: &Base,

@@ -1,5 +1,5 @@
 //! A row of weights over the displacements of both buildings: how far two faces have come nearer, or the drift of what can
-//! yield. A force along the row acts on each displacement with its weight of it.
+//! yield. A force along the row acts on each of them with the same weight.
 
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
@@ -59,7 +59,7 @@ impl Row {
         FlightRow::of(&self.modes, self.oscillating.as_ref())
     }
 
-    /// The quantity in displacements, or its rate in velocities ...
+    /// The quantity of displacements, or its rate from velocities.
     #[inline(always)]
     pub(crate) fn value(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
@@ -68,7 +68,7 @@ impl Row {
         }
     }
 
-    /// (value, size): the same, set to 0 where it is no more than rounding, and the sum of the magnitudes that it is made of.
+    /// (value, size): the quantity, set to 0 where it is no more than rounding, and the sum of the magnitudes that it is made of.
     pub(crate) fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
         match coordinates {
             Coordinates::Modes => crate::structure::difference(&self.modes, motion),

@@ -98,7 +98,7 @@ impl Model {
         let mut modal = std::mem::take(&mut room.modal);
         self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
         room.modal = modal;
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             let FloorRoom { start, .. } = &work.peaks.floors;
             for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
                 let below = self.system.structure.floors.below(side, floor, &start.u);
@@ -124,13 +124,13 @@ impl Model {
         for b in 0..self.system.structure.bodies.len() {
             self.bound_body(b, part, work);
         }
-        let is_open = [Side::Left, Side::Right].map(|side| self.may_exceed(side, part, peaks, work));
+        let is_open = Side::BOTH.map(|side| self.may_exceed(side, part, peaks, work));
         let are_links_open = self.links_may_exceed(part, peaks, work);
         if is_open == [false; 2] && !are_links_open {
             return;
         }
         let has_series = self.bound_by_series(part, work);
-        for side in [Side::Left, Side::Right].into_iter().filter(|side| is_open[*side as usize]) {
+        for side in Side::BOTH.into_iter().filter(|side| is_open[*side as usize]) {
             if has_series {
                 self.bound_building_by_series(side, part, work);
                 self.may_exceed(side, part, peaks, work);
@@ -139,7 +139,7 @@ impl Model {
         }
         if are_links_open {
             if has_series {
-                [Side::Left, Side::Right].into_iter().for_each(|side| self.bound_building_by_series(side, part, work));
+                Side::BOTH.into_iter().for_each(|side| self.bound_building_by_series(side, part, work));
             }
             self.check_links(part, peaks, work);
         }

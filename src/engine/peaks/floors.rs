@@ -44,9 +44,9 @@ impl Model {
                 }
             }
         }
-        out.shear = [Side::Left, Side::Right].map(|side| self.shear_of(side, out));
+        out.shear = Side::BOTH.map(|side| self.shear_of(side, out));
         if !self.system.storeys.is_empty() {
-            for side in [Side::Left, Side::Right] {
+            for side in Side::BOTH {
                 out.shear[side as usize] += rest.watched[self.peak_rows.place(PeakOf::BaseShear(side))];
             }
             out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);

@@ -17,7 +17,7 @@ impl Model {
             watched[place(PeakOf::LinkDisplacement(l))] = closing;
             watched[place(PeakOf::LinkForce(l))] = system.link_force(storeys, l, (closing, 0.0));
         }
-        for side in [Side::Left, Side::Right] {
+        for side in Side::BOTH {
             watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(storeys, side, floors);
             for (floor, lane) in system.structure.floors.lanes_of(side as usize).enumerate() {
                 watched[place(PeakOf::Displacement(side, floor))] = floors[lane];
