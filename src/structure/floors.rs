@@ -171,10 +171,36 @@ impl Floors {
         self.places[side as usize].drift(storey).skip(1).filter_map(taken).sum()
     }
 
-    /// A bound on that, from bounds on the magnitudes of all motions.
-    pub fn bound_below(&self, side: Side, storey: usize, sizes: &[f64]) -> f64 {
+    /// Writes the drifts of the storeys of a building in a motion of all floors.
+    pub fn set_drifts(&self, side: Side, motion: &[f64], drifts: &mut [f64]) {
+        self.combine(side, (motion, |motion, below| motion - below, |storey| self.below(side, storey, motion)), drifts);
+    }
+
+    /// Writes bounds on them, from bounds on the magnitudes of all motions.
+    pub fn bound_drifts(&self, side: Side, sizes: &[f64], bounds: &mut [f64]) {
         let size = |(place, weight): (Place, f64)| Some(weight.abs() * sizes[self.lane_of(side, place)?]);
-        self.places[side as usize].drift(storey).skip(1).filter_map(size).sum()
+        let below = |storey: usize| self.places[side as usize].drift(storey).skip(1).filter_map(size).sum();
+        self.combine(side, (sizes, |size, below| size + below, below), bounds);
+    }
+
+    /// Combines each floor with the one below it, or on soil with what is `below` it.
+    fn combine(
+        &self,
+        side: Side,
+        (of, both, below): (&[f64], impl Fn(f64, f64) -> f64, impl Fn(usize) -> f64),
+        out: &mut [f64],
+    ) {
+        let lanes = self.lanes_of(side as usize);
+        let (of, out) = (&of[lanes.clone()], &mut out[lanes]);
+        if self.places[side as usize].are_of_floors() {
+            out[0] = of[0];
+            let neighbours = of.iter().zip(&of[1..]);
+            out[1..].iter_mut().zip(neighbours).for_each(|(out, (below, of))| *out = both(*of, *below));
+        } else {
+            for (storey, (out, of)) in out.iter_mut().zip(of).enumerate() {
+                *out = both(*of, below(storey));
+            }
+        }
     }
 
     /// The displacements of a building.

@@ -15,8 +15,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::structure::{LANES, MotionSeries, Side};
-use std::ops::Range;
+use crate::structure::{LANES, Side};
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
 /// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
@@ -98,14 +97,13 @@ impl Model {
         let mut modal = std::mem::take(&mut room.modal);
         self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
         room.modal = modal;
+        let FloorRoom { start, pushes: [pushed, _], .. } = &work.peaks.floors;
         for side in Side::BOTH {
-            let FloorRoom { start, .. } = &work.peaks.floors;
             for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
-                let below = self.system.structure.floors.below(side, floor, &start.u);
                 let now = [
                     (PeakOf::Displacement(side, floor), start.u[lane]),
-                    (PeakOf::Drift(side, floor), start.u[lane] - below),
-                    (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
+                    (PeakOf::Drift(side, floor), start.drift[lane]),
+                    (PeakOf::Acceleration(side, floor), start.resisted[lane] + pushed[lane]),
                 ];
                 // Accelerations depend on the floor forces, which may have just been set.
                 let known = if self.system.floor_forces { &now[..2] } else { &now };
@@ -122,9 +120,10 @@ impl Model {
         self.find_pushes(part.base, work);
         // The bounds of `floors.rs` cost less than those of a series, and often suffice.
         for b in 0..self.system.structure.bodies.len() {
-            self.bound_body(b, part, work);
+            self.bound_body(b, part, &mut work.peaks.floors);
         }
-        let is_open = Side::BOTH.map(|side| self.may_exceed(side, part, peaks, work));
+        let is_open =
+            Side::BOTH.map(|side| self.find_excess(side, (part.length, false), peaks, &mut work.peaks.floors));
         let are_links_open = self.links_may_exceed(part, peaks, work);
         if is_open == [false; 2] && !are_links_open {
             return;
@@ -132,57 +131,18 @@ impl Model {
         let has_series = self.bound_by_series(part, work);
         for side in Side::BOTH.into_iter().filter(|side| is_open[*side as usize]) {
             if has_series {
-                self.bound_building_by_series(side, part, work);
-                self.may_exceed(side, part, peaks, work);
+                self.bound_building_by_series(side, part, &mut work.peaks.floors);
+                self.find_excess(side, (part.length, true), peaks, &mut work.peaks.floors);
             }
-            self.check_building(side, part, peaks, work);
+            self.search_building(side, part, peaks, work);
         }
         if are_links_open {
             if has_series {
-                Side::BOTH.into_iter().for_each(|side| self.bound_building_by_series(side, part, work));
+                let room = &mut work.peaks.floors;
+                Side::BOTH.into_iter().for_each(|side| self.bound_building_by_series(side, part, room));
             }
             self.check_links(part, peaks, work);
         }
-    }
-
-    /// Whether a peak of a building may be exceeded over the step, by the bounds on its floors; works out by how much those of
-    /// each floor.
-    fn may_exceed(&self, side: Side, part: &ContactStep, peaks: &Peaks, work: &mut PeakWork) -> bool {
-        let lanes = self.system.structure.floors.lanes_of(side as usize);
-        let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
-        let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
-        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, [known[0], known[2]]);
-        match self.system.structure.floors.places(side).are_of_floors() {
-            true => find_excess_of_drifts(&mut work.peaks.floors, lanes.clone(), part.length, known[1]),
-            false => self.find_excess_on_soil(side, part.length, known[1], &mut work.peaks.floors),
-        }
-        let shear = self.bound_shear(side, part.length, &work.peaks.floors).1;
-        // Written so that a NaN is never below anything.
-        let are_below = work.peaks.floors.excess[lanes].iter().all(|excess| *excess <= 0.0);
-        !(are_below && shear <= peaks.values[self.peak_rows.place(PeakOf::BaseShear(side))])
-    }
-
-    /// Raises the excess of each floor to that of the storey below it over its peak of drift, for a building on soil.
-    fn find_excess_on_soil(&self, side: Side, h: f64, drift: &[f64], room: &mut FloorRoom) {
-        let floors = &self.system.structure.floors;
-        let FloorRoom { start, end, largest, excess, .. } = room;
-        for (storey, lane) in floors.lanes_of(side as usize).enumerate() {
-            let at = |u: &[f64]| (u[lane] - floors.below(side, storey, u)).abs();
-            let fastest = largest[lane] + floors.bound_below(side, storey, largest);
-            let moved = larger(at(&start.u), at(&end.u)) + 0.125 * h * h * fastest - drift[storey];
-            excess[lane] = if moved <= excess[lane] { excess[lane] } else { moved };
-        }
-    }
-
-    /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
-    fn bound_shear(
-        &self,
-        side: Side,
-        length: f64,
-        FloorRoom { start, end, largest, .. }: &FloorRoom,
-    ) -> ([f64; 2], f64) {
-        let shears = [start, end].map(|at| at.shear[side as usize]);
-        (shears, larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, length, largest))
     }
 
     /// Works out the floors at both ends.
@@ -215,130 +175,44 @@ impl Model {
 
     /// Works out the floors' accelerations by contact forces, m/s2: at both ends, and their least and largest values.
     fn find_pushes(&self, base: &Base, work: &mut PeakWork) {
-        let room = &mut work.peaks;
-        for vector in [&mut room.first_push, &mut room.last_push, &mut room.floors.least, &mut room.floors.most] {
-            vector.fill(0.0);
-        }
+        let PeakRoom { floors, first_forces, last_forces, strongest, .. } = &mut *work.peaks;
+        let FloorRoom { pushes: [first, last], least, most, .. } = floors;
+        [&mut *first, last, least, most].into_iter().for_each(|vector| vector.fill(0.0));
         for (p, pair) in self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
             // A truncated series of a force may lie below the law's force at an end.
-            let ends = larger(room.first_forces[p].abs(), room.last_forces[p].abs());
-            let (strongest, pulls) = (larger(room.strongest[p], ends), pair.law.kind.info().pulls);
+            let ends = larger(first_forces[p].abs(), last_forces[p].abs());
+            let (strongest, pulls) = (larger(strongest[p], ends), pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
             for FloorShare { lane, push, .. } in pair.row.floors {
                 // Pushed to the left, which a pull does to the right; or the other way round.
                 let (by_push, by_pull) = (push * strongest, -push * pulled);
-                let [least, most] = if push < 0.0 { [by_push, by_pull] } else { [by_pull, by_push] };
-                room.floors.least[lane] += least;
-                room.floors.most[lane] += most;
-                room.first_push[lane] += push * room.first_forces[p];
-                room.last_push[lane] += push * room.last_forces[p];
+                let of_force = if push < 0.0 { [by_push, by_pull] } else { [by_pull, by_push] };
+                least[lane] += of_force[0];
+                most[lane] += of_force[1];
+                first[lane] += push * first_forces[p];
+                last[lane] += push * last_forces[p];
             }
         }
     }
 
-    /// Bounds by the series of a step: a floor's absolute acceleration a deviates from the chord of its values at both ends
-    /// by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes these deviations,
-    /// m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them; returns whether
-    /// the step has such a series.
-    ///
-    /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
-    fn bound_by_series(&self, part: &ContactStep, work: &mut PeakWork) -> bool {
-        let Dense::Taylor(solution) = part.step.dense() else { return false };
-        let PeakRoom { floors: FloorRoom { strays, modal, least, most, .. }, first_push, last_push, .. } =
-            &mut *work.peaks;
-        let is_on_modes = part.base.coordinates == Coordinates::Modes;
-        let bounds = if is_on_modes { &mut *modal } else { &mut *strays };
-        let of_ground = match solution.series.time_map.is_curved() {
-            false => {
-                solution.series.bound_fourths(&solution.end, bounds);
-                let sag = 0.125 * part.length * part.length;
-                bounds.iter_mut().for_each(|stray| *stray *= sag);
-                0.0
-            }
-            true => bound_in_time_map(solution, part, &mut work.buffers.series, bounds),
-        };
-        if is_on_modes {
-            self.system.structure.bound_floors(modal, strays);
-        }
-        strays.iter_mut().for_each(|stray| *stray += of_ground);
-        for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
-            (least[lane], most[lane]) = (-larger(-first, -last), larger(*first, *last));
-        }
-        true
-    }
-
-    /// Works out upper bounds on the accelerations of a body's floors.
-    fn bound_body(&self, b: usize, part: &ContactStep, work: &mut PeakWork) {
-        let (ground, slope) = part.ground();
-        let ground = larger(ground.abs(), (ground + slope * part.length).abs());
-        let room = &mut work.peaks.floors;
-        for lane in self.system.structure.bodies[b].lanes.clone() {
-            let resisted = larger(room.start.resisted[lane].abs(), room.end.resisted[lane].abs());
-            room.largest[lane] = resisted + larger(room.most[lane], -room.least[lane]) + ground;
-        }
-        self.find_strays(b, part.length, room);
-    }
-
-    /// Works out upper bounds on the floors' accelerations from those at both ends and the deviations in between.
-    fn bound_building_by_series(&self, side: Side, part: &ContactStep, work: &mut PeakWork) {
-        let (ground, slope) = part.ground();
-        let ground = larger(ground.abs(), (ground + slope * part.length).abs());
-        let PeakRoom { floors, first_push, last_push, .. } = &mut *work.peaks;
-        let FloorRoom { start, end, largest, strays, .. } = floors;
-        for lane in self.system.structure.floors.lanes_with_foundation(side as usize) {
-            let ends = [start.resisted[lane] + first_push[lane], end.resisted[lane] + last_push[lane]];
-            largest[lane] = larger(ends[0].abs(), ends[1].abs()) + strays[lane] + ground;
-        }
-    }
-
-    /// Raises the peaks of a building over the step, of which it is known by how much each floor's may be exceeded.
-    fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
-        for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
-            // Written so that a NaN is never below anything.
-            let is_below = work.peaks.floors.excess[lane] <= 0.0;
-            if !is_below {
-                self.check_floor(side, (floor, lane), part, peaks, work);
+    /// Raises the peaks of a building within the step, of which it is known by how much each floor's may be exceeded.
+    fn search_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+        let kinds = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
+        for (kind, of) in kinds.into_iter().enumerate() {
+            for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
+                // Written so that a NaN is never below anything.
+                if work.peaks.floors.excess[kind][lane] <= 0.0 {
+                    continue;
+                }
+                let FloorRoom { end, pushes: [_, pushed], .. } = &work.peaks.floors;
+                let at_end = [end.u[lane], end.drift[lane], end.resisted[lane] + pushed[lane]][kind];
+                let place = self.peak_rows.place(of(side, floor));
+                let peak = self.highest_in_contact(of(side, floor), (peaks.values[place], at_end), part, work);
+                peaks.raise(place, peak);
             }
         }
         let (shears, bound) = self.bound_shear(side, part.length, &work.peaks.floors);
         self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
-    }
-
-    /// Raises the peaks of a floor and of the storey below it.
-    fn check_floor(
-        &self,
-        side: Side,
-        (floor, lane): (usize, usize),
-        part: &ContactStep,
-        peaks: &mut Peaks,
-        work: &mut PeakWork,
-    ) {
-        let sag = 0.125 * part.length * part.length;
-        let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
-        let floors = &self.system.structure.floors;
-        let at = |of: &[f64]| floors.below(side, floor, of);
-        let (fastest, slower) = (largest[lane], floors.bound_below(side, floor, largest));
-        let speed = start.v[lane] + end.v[lane];
-        let drifting = speed - (at(&start.v) + at(&end.v));
-        let moved = [start.u[lane], end.u[lane]];
-        let drift = [moved[0] - at(&start.u), moved[1] - at(&end.u)];
-        let resisted = [start.resisted[lane], end.resisted[lane]];
-        let pushed = [resisted[0] + work.peaks.first_push[lane], resisted[1] + work.peaks.last_push[lane]];
-        let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
-        let bottom = larger(-resisted[0], -resisted[1]) - least[lane] + strays[lane];
-        let acceleration = larger(top, bottom);
-        // A monotonic quantity is largest at an end; it is monotonic if its rate is larger than the acceleration could
-        // reverse.
-        let goes_on = |rates: f64, fastest: f64| rates.abs() > part.length * fastest;
-        let moving = [
-            (PeakOf::Displacement(side, floor), moved, sag * fastest, goes_on(speed, fastest)),
-            (PeakOf::Drift(side, floor), drift, sag * (fastest + slower), goes_on(drifting, fastest + slower)),
-        ];
-        for (of, ends, sag, goes_on) in moving {
-            let bound = larger(ends[0].abs(), ends[1].abs()) + if goes_on { 0.0 } else { sag };
-            self.check_one(of, ends, (bound, goes_on), part, peaks, work);
-        }
-        self.check_one(PeakOf::Acceleration(side, floor), pushed, (acceleration, false), part, peaks, work);
     }
 
     /// Raises one peak from the values at both ends, a bound on it, and whether the quantity is monotonic.
@@ -401,61 +275,5 @@ impl Model {
         };
         work.peaks.rows = rows;
         peak
-    }
-}
-
-/// The deviations from the chord in the x of the step's time map, without that of the ground's acceleration, which it
-/// returns; `accelerations` is scratch.
-fn bound_in_time_map(
-    Solution { series, substitution, .. }: &Solution,
-    part: &ContactStep,
-    accelerations: &mut MotionSeries,
-    strays: &mut [f64],
-) -> f64 {
-    let x = series.x_at(part.length);
-    accelerations.set_accelerations(series, substitution);
-    accelerations.bound_seconds(x, strays);
-    // The ground's acceleration is linear in time, which is quadratic in x.
-    let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.ground().1).abs();
-    let sag = 0.125 * x * x;
-    strays.iter_mut().for_each(|stray| *stray *= sag);
-    sag * of_ground
-}
-
-/// Bounds on the excess of the floors of a building over their peaks of displacement and acceleration, whichever is largest, in a step of h seconds: the bounds of [`Model::check_floor`] for all floors.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, acceleration]: [&[f64]; 2]) {
-    let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;
-    let (sag, count) = (0.125 * h * h, lanes.len());
-    // Equal lengths: no bounds checks below.
-    let (from, to) = (lanes.start, lanes.end);
-    let (u0, u1) = (&start.u[from..to][..count], &end.u[from..to][..count]);
-    let (r0, r1) = (&start.resisted[from..to][..count], &end.resisted[from..to][..count]);
-    let (least, most) = (&least[from..to][..count], &most[from..to][..count]);
-    let (largest, strays) = (&largest[from..to][..count], &strays[from..to][..count]);
-    let (displacement, acceleration) = (&displacement[..count], &acceleration[..count]);
-    let excess = &mut excess[lanes][..count];
-    for i in 0..count {
-        let moved = larger(u0[i].abs(), u1[i].abs()) + sag * largest[i] - displacement[i];
-        let top = larger(r0[i], r1[i]) + most[i];
-        let bottom = larger(-r0[i], -r1[i]) - least[i];
-        let pushed = larger(top, bottom) + strays[i] - acceleration[i];
-        excess[i] = if pushed <= moved { moved } else { pushed };
-    }
-}
-
-/// The same for the peaks of drift, added to what is known of the others.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn find_excess_of_drifts(room: &mut FloorRoom, lanes: Range<usize>, h: f64, drift: &[f64]) {
-    let FloorRoom { start, end, largest, excess, .. } = room;
-    let (sag, count) = (0.125 * h * h, lanes.len());
-    // Equal lengths: no bounds checks below.
-    let (from, to) = (lanes.start, lanes.end);
-    let (u0, u1) = (&start.u[from..to][..count], &end.u[from..to][..count]);
-    let (largest, drift, excess) = (&largest[from..to][..count], &drift[..count], &mut excess[lanes][..count]);
-    for i in 0..count {
-        let (below, slower) = if i == 0 { ((0.0, 0.0), 0.0) } else { ((u0[i - 1], u1[i - 1]), largest[i - 1]) };
-        let moved = larger((u0[i] - below.0).abs(), (u1[i] - below.1).abs()) + sag * (largest[i] + slower) - drift[i];
-        excess[i] = if moved <= excess[i] { excess[i] } else { moved };
     }
 }

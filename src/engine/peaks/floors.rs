@@ -51,6 +51,10 @@ impl Model {
             }
             out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);
         }
+        for side in Side::BOTH {
+            structure.floors.set_drifts(side, &out.u, &mut out.drift);
+            structure.floors.set_drifts(side, &out.v, &mut out.drifting);
+        }
     }
 
     /// Takes from the accelerations and shears of a motion what storeys that yield do not resist with, where their drifts

@@ -15,6 +15,7 @@
 
 pub mod ahead;
 pub mod contact;
+mod excess;
 pub mod flight;
 pub mod floors;
 pub mod fold;

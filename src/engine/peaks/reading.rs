@@ -59,6 +59,12 @@ impl ContactStep<'_> {
         let Base { segment, elapsed, .. } = self.base;
         (segment.acceleration_at(*elapsed), segment.slope)
     }
+
+    /// The largest magnitude of the ground acceleration, m/s2.
+    pub fn strongest_ground(&self) -> f64 {
+        let (ground, slope) = self.ground();
+        larger(ground.abs(), (ground + slope * self.length).abs())
+    }
 }
 
 /// A quantity evaluated at a time of a step.

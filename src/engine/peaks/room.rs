@@ -115,10 +115,6 @@ pub struct PeakRoom {
     pub last_forces: Vec<f64>,
     /// Penetrations, m, and rates, m/s, at the start of a step.
     pub starts: Vec<(f64, f64)>,
-    /// The floors' accelerations by these contact forces at the start, m/s2.
-    pub first_push: Vec<f64>,
-    /// The floors' accelerations by the contact forces at the end, m/s2.
-    pub last_push: Vec<f64>,
 }
 
 impl PeakRoom {
@@ -148,8 +144,6 @@ impl PeakRoom {
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
-            first_push: vec![0.0; lanes],
-            last_push: vec![0.0; lanes],
         }
     }
 
@@ -178,6 +172,10 @@ pub struct FloorState {
     pub u: Vec<f64>,
     /// Velocities, m/s.
     pub v: Vec<f64>,
+    /// Drifts of the storeys below the floors, m.
+    pub drift: Vec<f64>,
+    /// Their rates, m/s.
+    pub drifting: Vec<f64>,
     /// Accelerations by stiffness and damping of the buildings and by floor forces, m/s2.
     pub resisted: Vec<f64>,
     /// Base shears of both buildings, N.
@@ -187,7 +185,14 @@ pub struct FloorState {
 impl FloorState {
     pub fn new(lanes: usize) -> FloorState {
         let vector = || vec![0.0; lanes];
-        FloorState { u: vector(), v: vector(), resisted: vector(), shear: [0.0; 2] }
+        FloorState {
+            u: vector(),
+            v: vector(),
+            drift: vector(),
+            drifting: vector(),
+            resisted: vector(),
+            shear: [0.0; 2],
+        }
     }
 }
 
@@ -196,16 +201,24 @@ impl FloorState {
 pub struct FloorRoom {
     pub start: FloorState,
     pub end: FloorState,
+    /// Accelerations of each floor by contact forces at the start and at the end, m/s2.
+    pub pushes: [Vec<f64>; 2],
     /// Least accelerations of each floor by contact forces, m/s2.
     pub least: Vec<f64>,
     /// Largest accelerations of each floor by contact forces, m/s2.
     pub most: Vec<f64>,
     /// B, and at last A, m/s2 (see `floors.rs`).
     pub largest: Vec<f64>,
+    /// Largest accelerations of the floors relative to those below, m/s2.
+    pub parting: Vec<f64>,
+    /// Accelerations of each floor relative to the ground, and to the floor below, at the start and at the end, m/s2.
+    pub bends: [Vec<f64>; 2],
+    pub partings: [Vec<f64>; 2],
     /// Bounds on the deviation of r from its chord, m/s2.
     pub strays: Vec<f64>,
-    /// Bounds on the excess over the peaks.
-    pub excess: Vec<f64>,
+    /// Bounds on the excess of each floor over its peaks of displacement, drift and acceleration; nothing is exceeded
+    /// up to 0.
+    pub excess: [Vec<f64>; 3],
     /// Scratch vector on modes.
     pub modal: Vec<f64>,
     /// The time of `end`: bits of the start of its segment and of the time since then.
@@ -218,11 +231,15 @@ impl FloorRoom {
         FloorRoom {
             start: FloorState::new(lanes),
             end: FloorState::new(lanes),
+            pushes: [vector(), vector()],
             least: vector(),
             most: vector(),
             largest: vector(),
+            parting: vector(),
+            bends: [vector(), vector()],
+            partings: [vector(), vector()],
             strays: vector(),
-            excess: vector(),
+            excess: [vector(), vector(), vector()],
             modal: vector(),
             known: None,
         }

@@ -1,0 +1,214 @@
+//! By how much the floors of a building may exceed their peaks within a step in contact: from both ends of the step, to
+//! which the peaks rise at once, and bounds on the motion in between.
+
+use crate::engine::base::Coordinates;
+use crate::engine::base::peaks::Peaks;
+use crate::engine::model::Model;
+use crate::engine::peaks::reading::ContactStep;
+use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
+use crate::engine::quantities::rows::PeakOf;
+use crate::engine::step::Dense;
+use crate::engine::taylor::solution::Solution;
+use crate::numerics::polynomial::larger;
+use crate::scene::Place;
+use crate::structure::{MotionSeries, Side};
+
+impl Model {
+    /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and works out by how much they
+    /// may be exceeded in between, by the bounds on its floors; returns whether any may.
+    pub(super) fn find_excess(
+        &self,
+        side: Side,
+        (h, has_series): (f64, bool),
+        peaks: &mut Peaks,
+        room: &mut FloorRoom,
+    ) -> bool {
+        let lanes = self.system.structure.floors.lanes_of(side as usize);
+        let of_peaks =
+            [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)].map(|of| {
+                let first = self.peak_rows.place(of);
+                first..first + lanes.len()
+            });
+        let [of_displacements, of_drifts, of_accelerations] = of_peaks;
+        let FloorRoom { start, end, pushes: [first, last], least, most, largest, parting, strays, excess, .. } = room;
+        let [moved, drifted, pushed] = excess.each_mut().map(|excess| &mut excess[lanes.clone()]);
+        let motion = [&start.u, &end.u, &start.v, &end.v, largest].map(|of| &of[lanes.clone()]);
+        exceed_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
+        let motion = [&start.drift, &end.drift, &start.drifting, &end.drifting, parting].map(|of| &of[lanes.clone()]);
+        exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
+        let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
+        let bounds = [least, most, strays].map(|of| &of[lanes.clone()]);
+        exceed_by_push(ends, bounds, has_series, &mut peaks.values[of_accelerations], pushed);
+        // Written so that a NaN is never below anything.
+        let are_below = |excess: &[f64]| excess.iter().all(|excess| *excess <= 0.0);
+        let are_floors_below = are_below(moved) && are_below(drifted) && are_below(pushed);
+        let shear = peaks.values[self.peak_rows.place(PeakOf::BaseShear(side))];
+        !(are_floors_below && self.bound_shear(side, h, room).1 <= shear)
+    }
+
+    /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
+    pub(super) fn bound_shear(
+        &self,
+        side: Side,
+        length: f64,
+        FloorRoom { start, end, largest, .. }: &FloorRoom,
+    ) -> ([f64; 2], f64) {
+        let shears = [start, end].map(|at| at.shear[side as usize]);
+        (shears, larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, length, largest))
+    }
+
+    /// Works out upper bounds on the accelerations of a body's floors.
+    pub(super) fn bound_body(&self, b: usize, part: &ContactStep, room: &mut FloorRoom) {
+        let lanes = self.system.structure.bodies[b].lanes.clone();
+        let FloorRoom { start, end, least, most, largest, .. } = room;
+        let ends = [&start.resisted, &end.resisted].map(|of| &of[lanes.clone()]);
+        let forces = [least, most].map(|of| &of[lanes.clone()]);
+        add_forces(ends, forces, part.strongest_ground(), &mut largest[lanes.clone()]);
+        self.find_strays(b, part.length, room);
+        for building in &self.system.structure.bodies[b].buildings {
+            self.system.structure.floors.bound_drifts(building.side, &room.largest, &mut room.parting);
+        }
+    }
+
+    /// Bounds by the series of a step: a floor's absolute acceleration a deviates from the chord of its values at both ends
+    /// by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes these deviations,
+    /// m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them; returns whether
+    /// the step has such a series.
+    ///
+    /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
+    pub(super) fn bound_by_series(&self, part: &ContactStep, work: &mut PeakWork) -> bool {
+        let Dense::Taylor(solution) = part.step.dense() else { return false };
+        let PeakRoom { floors: FloorRoom { strays, modal, least, most, pushes: [first, last], .. }, .. } =
+            &mut *work.peaks;
+        let is_on_modes = part.base.coordinates == Coordinates::Modes;
+        let bounds = if is_on_modes { &mut *modal } else { &mut *strays };
+        let of_ground = match solution.series.time_map.is_curved() {
+            false => {
+                solution.series.bound_fourths(&solution.end, bounds);
+                let sag = 0.125 * part.length * part.length;
+                bounds.iter_mut().for_each(|stray| *stray *= sag);
+                0.0
+            }
+            true => bound_in_time_map(solution, part, &mut work.buffers.series, bounds),
+        };
+        if is_on_modes {
+            self.system.structure.bound_floors(modal, strays);
+        }
+        strays.iter_mut().for_each(|stray| *stray += of_ground);
+        for ((least, most), (first, last)) in least.iter_mut().zip(most).zip(first.iter().zip(&*last)) {
+            (*least, *most) = (-larger(-first, -last), larger(*first, *last));
+        }
+        true
+    }
+
+    /// Works out upper bounds on the accelerations of the floors relative to the ground and to each other, from those at
+    /// both ends and the deviations in between.
+    pub(super) fn bound_building_by_series(&self, side: Side, part: &ContactStep, room: &mut FloorRoom) {
+        let floors = &self.system.structure.floors;
+        let lanes = floors.lanes_with_foundation(side as usize);
+        let FloorRoom { start, end, pushes, strays, bends, partings, largest, parting, .. } = room;
+        let (ground, slope) = part.ground();
+        let at_ends = [(start, ground), (end, ground + slope * part.length)];
+        for ((at, ground), ((pushed, bend), parting)) in
+            at_ends.into_iter().zip(pushes.iter().zip(&mut *bends).zip(&mut *partings))
+        {
+            for lane in lanes.clone() {
+                bend[lane] = at.resisted[lane] + pushed[lane] - ground;
+            }
+            // The ground does not turn.
+            if let Some(rotation) = floors.lane_of(side, Place::Rotation) {
+                bend[rotation] += ground;
+            }
+            floors.set_drifts(side, bend, parting);
+        }
+        floors.bound_drifts(side, strays, parting);
+        let of_floors = floors.lanes_of(side as usize);
+        largest[lanes.clone()].copy_from_slice(&strays[lanes.clone()]);
+        add_larger(bends.each_ref().map(|bend| &bend[lanes.clone()]), &mut largest[lanes.clone()]);
+        add_larger(partings.each_ref().map(|of| &of[of_floors.clone()]), &mut parting[of_floors.clone()]);
+    }
+}
+
+/// The deviations from the chord in the x of the step's time map, without that of the ground's acceleration, which it
+/// returns; `accelerations` is scratch.
+fn bound_in_time_map(
+    Solution { series, substitution, .. }: &Solution,
+    part: &ContactStep,
+    accelerations: &mut MotionSeries,
+    strays: &mut [f64],
+) -> f64 {
+    let x = series.x_at(part.length);
+    accelerations.set_accelerations(series, substitution);
+    accelerations.bound_seconds(x, strays);
+    // The ground's acceleration is linear in time, which is quadratic in x.
+    let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.ground().1).abs();
+    let sag = 0.125 * x * x;
+    strays.iter_mut().for_each(|stray| *stray *= sag);
+    sag * of_ground
+}
+
+/// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes by how much they may be exceeded
+/// in between, with bounds on the second derivatives. A motion is monotonic, and largest at an end, if its rate is larger
+/// than these could reverse.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn exceed_by_motion([start, end, rate, end_rate, fastest]: [&[f64]; 5], h: f64, peaks: &mut [f64], excess: &mut [f64]) {
+    let (sag, count) = (0.125 * h * h, peaks.len());
+    // Equal lengths: no bounds checks below.
+    let [start, end, rate, end_rate, fastest] = [start, end, rate, end_rate, fastest].map(|vector| &vector[..count]);
+    let excess = &mut excess[..count];
+    for i in 0..count {
+        let ends = larger(start[i].abs(), end[i].abs());
+        peaks[i] = larger(peaks[i], ends);
+        let goes_on = (rate[i] + end_rate[i]).abs() > h * fastest[i];
+        let over = ends + sag * fastest[i] - peaks[i];
+        excess[i] = if goes_on { 0.0 } else { over };
+    }
+}
+
+/// The same for absolute accelerations, from those without contact forces and by these at both ends, least and largest
+/// accelerations by contact forces, and bounds on what the rest deviates from its chord by. With a series these are the
+/// deviations of the whole: if it turned in between, its ends would differ by at most four times as much.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn exceed_by_push(
+    [start, end, first, last]: [&[f64]; 4],
+    [least, most, strays]: [&[f64]; 3],
+    has_series: bool,
+    peaks: &mut [f64],
+    excess: &mut [f64],
+) {
+    let count = peaks.len();
+    let [start, end, first, last] = [start, end, first, last].map(|vector| &vector[..count]);
+    let [least, most, strays] = [least, most, strays].map(|vector| &vector[..count]);
+    let excess = &mut excess[..count];
+    let turns_within = if has_series { 4.0 } else { f64::INFINITY };
+    for i in 0..count {
+        let ends = [start[i] + first[i], end[i] + last[i]];
+        peaks[i] = larger(peaks[i], larger(ends[0].abs(), ends[1].abs()));
+        let top = larger(start[i], end[i]) + most[i];
+        let bottom = larger(-start[i], -end[i]) - least[i];
+        let goes_on = (ends[1] - ends[0]).abs() > turns_within * strays[i];
+        let over = larger(top, bottom) + strays[i] - peaks[i];
+        excess[i] = if goes_on { 0.0 } else { over };
+    }
+}
+
+/// Writes upper bounds on the magnitudes of accelerations: of the larger one at both ends, with those by contact forces and
+/// the ground's.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_forces([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
+    let count = largest.len();
+    let [start, end, least, most] = [start, end, least, most].map(|vector| &vector[..count]);
+    for i in 0..count {
+        largest[i] = larger(start[i].abs(), end[i].abs()) + larger(most[i], -least[i]) + ground;
+    }
+}
+
+/// Adds the larger magnitude of each number at both ends.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_larger([start, end]: [&[f64]; 2], out: &mut [f64]) {
+    let count = out.len();
+    let [start, end] = [start, end].map(|vector| &vector[..count]);
+    for i in 0..count {
+        out[i] += larger(start[i].abs(), end[i].abs());
+    }
+}
