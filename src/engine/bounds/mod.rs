@@ -31,6 +31,8 @@
 //!                values and rates + h^4/384 max |y''''|                                                   for all rows
 //! horizon        c0 + x max(c1, 0) + |c2| x^2 + |c3| x^3 + ...       all terms have one sign              the floors
 //! ends of series as both ends, with max |y''''| by the row's terms   nearly always                        the terms
+//! chord          the larger end + h^2/8 max |y''|                    h w below 1; exact where y does not  the floors
+//!                                                                    turn
 //!
 //! bound                                  file              who asks
 //! ------------------------------------------------------------------------------------------------------------------
@@ -40,6 +42,7 @@
 //! both ends                              certificate.rs    flight/mod.rs, flight/search.rs, taylor/exact.rs
 //! horizon                                terms.rs          taylor/open_pairs.rs, taylor/switches.rs
 //! ends of series                         terms.rs          taylor/open_pairs.rs
+//! chord                                  chord.rs          peaks/excess.rs: all floors over a step in contact
 //! ```
 //!
 //! What is watched for its peak is read late, many flights at once: a [`span`] has its own bound over the slow modes. The
@@ -68,6 +71,7 @@
 
 pub mod amplitude;
 pub mod certificate;
+pub mod chord;
 pub mod cubic;
 pub mod envelope;
 pub mod flights;

@@ -3,6 +3,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::chord::{add_forces, add_larger, exceed_by_motion, exceed_by_push};
 use crate::engine::model::Model;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
@@ -145,70 +146,4 @@ fn bound_in_time_map(
     let sag = 0.125 * x * x;
     strays.iter_mut().for_each(|stray| *stray *= sag);
     sag * of_ground
-}
-
-/// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes by how much they may be exceeded
-/// in between, with bounds on the second derivatives. A motion is monotonic, and largest at an end, if its rate is larger
-/// than these could reverse.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn exceed_by_motion([start, end, rate, end_rate, fastest]: [&[f64]; 5], h: f64, peaks: &mut [f64], excess: &mut [f64]) {
-    let (sag, count) = (0.125 * h * h, peaks.len());
-    // Equal lengths: no bounds checks below.
-    let [start, end, rate, end_rate, fastest] = [start, end, rate, end_rate, fastest].map(|vector| &vector[..count]);
-    let excess = &mut excess[..count];
-    for i in 0..count {
-        let ends = larger(start[i].abs(), end[i].abs());
-        peaks[i] = larger(peaks[i], ends);
-        let goes_on = (rate[i] + end_rate[i]).abs() > h * fastest[i];
-        let over = ends + sag * fastest[i] - peaks[i];
-        excess[i] = if goes_on { 0.0 } else { over };
-    }
-}
-
-/// The same for absolute accelerations, from those without contact forces and by these at both ends, least and largest
-/// accelerations by contact forces, and bounds on what the rest deviates from its chord by. With a series these are the
-/// deviations of the whole: if it turned in between, its ends would differ by at most four times as much.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn exceed_by_push(
-    [start, end, first, last]: [&[f64]; 4],
-    [least, most, strays]: [&[f64]; 3],
-    has_series: bool,
-    peaks: &mut [f64],
-    excess: &mut [f64],
-) {
-    let count = peaks.len();
-    let [start, end, first, last] = [start, end, first, last].map(|vector| &vector[..count]);
-    let [least, most, strays] = [least, most, strays].map(|vector| &vector[..count]);
-    let excess = &mut excess[..count];
-    let turns_within = if has_series { 4.0 } else { f64::INFINITY };
-    for i in 0..count {
-        let ends = [start[i] + first[i], end[i] + last[i]];
-        peaks[i] = larger(peaks[i], larger(ends[0].abs(), ends[1].abs()));
-        let top = larger(start[i], end[i]) + most[i];
-        let bottom = larger(-start[i], -end[i]) - least[i];
-        let goes_on = (ends[1] - ends[0]).abs() > turns_within * strays[i];
-        let over = larger(top, bottom) + strays[i] - peaks[i];
-        excess[i] = if goes_on { 0.0 } else { over };
-    }
-}
-
-/// Writes upper bounds on the magnitudes of accelerations: of the larger one at both ends, with those by contact forces and
-/// the ground's.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn add_forces([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
-    let count = largest.len();
-    let [start, end, least, most] = [start, end, least, most].map(|vector| &vector[..count]);
-    for i in 0..count {
-        largest[i] = larger(start[i].abs(), end[i].abs()) + larger(most[i], -least[i]) + ground;
-    }
-}
-
-/// Adds the larger magnitude of each number at both ends.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn add_larger([start, end]: [&[f64]; 2], out: &mut [f64]) {
-    let count = out.len();
-    let [start, end] = [start, end].map(|vector| &vector[..count]);
-    for i in 0..count {
-        out[i] += larger(start[i].abs(), end[i].abs());
-    }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub)]
 
 mod bounds;
+mod chords;
 mod elements;
 mod ends;
 mod motions;

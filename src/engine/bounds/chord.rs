@@ -1,0 +1,77 @@
+//! Many quantities over a step in contact, by the chords between their values at both ends: floor by floor.
+//!
+//! Within h seconds a quantity y deviates from its chord by at most h^2/8 max|y''|, so that its magnitude is at most the larger
+//! one at both ends and that. If it turned in between, its ends would differ by at most h^2/2 max|y''|, four times as much, and
+//! its rates at both ends would add up to no more than h max|y''|: otherwise it is largest at an end.
+
+use crate::numerics::polynomial::larger;
+
+/// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes by how much they may be exceeded
+/// in between: from the motions and their rates at both ends, with bounds on their second derivatives.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn exceed_by_motion(
+    [start, end, rate, end_rate, fastest]: [&[f64]; 5],
+    h: f64,
+    peaks: &mut [f64],
+    excess: &mut [f64],
+) {
+    let (sag, count) = (0.125 * h * h, peaks.len());
+    // Equal lengths: no bounds checks below.
+    let [start, end, rate, end_rate, fastest] = [start, end, rate, end_rate, fastest].map(|vector| &vector[..count]);
+    let excess = &mut excess[..count];
+    for i in 0..count {
+        let ends = larger(start[i].abs(), end[i].abs());
+        peaks[i] = larger(peaks[i], ends);
+        let goes_on = (rate[i] + end_rate[i]).abs() > h * fastest[i];
+        let over = ends + sag * fastest[i] - peaks[i];
+        excess[i] = if goes_on { 0.0 } else { over };
+    }
+}
+
+/// The same for absolute accelerations, from those without contact forces and those by them at both ends, the least and
+/// largest accelerations by contact forces, and bounds on the deviation of the rest from its chord; with a series, of the
+/// whole.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn exceed_by_push(
+    [start, end, first, last]: [&[f64]; 4],
+    [least, most, strays]: [&[f64]; 3],
+    has_series: bool,
+    peaks: &mut [f64],
+    excess: &mut [f64],
+) {
+    let count = peaks.len();
+    let [start, end, first, last] = [start, end, first, last].map(|vector| &vector[..count]);
+    let [least, most, strays] = [least, most, strays].map(|vector| &vector[..count]);
+    let excess = &mut excess[..count];
+    let turns_within = if has_series { 4.0 } else { f64::INFINITY };
+    for i in 0..count {
+        let ends = [start[i] + first[i], end[i] + last[i]];
+        peaks[i] = larger(peaks[i], larger(ends[0].abs(), ends[1].abs()));
+        let top = larger(start[i], end[i]) + most[i];
+        let bottom = larger(-start[i], -end[i]) - least[i];
+        let goes_on = (ends[1] - ends[0]).abs() > turns_within * strays[i];
+        let over = larger(top, bottom) + strays[i] - peaks[i];
+        excess[i] = if goes_on { 0.0 } else { over };
+    }
+}
+
+/// Writes upper bounds on the magnitudes of accelerations: of the larger one at both ends, with those by contact forces and
+/// the ground's.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn add_forces([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
+    let count = largest.len();
+    let [start, end, least, most] = [start, end, least, most].map(|vector| &vector[..count]);
+    for i in 0..count {
+        largest[i] = larger(start[i].abs(), end[i].abs()) + larger(most[i], -least[i]) + ground;
+    }
+}
+
+/// Adds the larger magnitude of each number at both ends.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn add_larger([start, end]: [&[f64]; 2], out: &mut [f64]) {
+    let count = out.len();
+    let [start, end] = [start, end].map(|vector| &vector[..count]);
+    for i in 0..count {
+        out[i] += larger(start[i].abs(), end[i].abs());
+    }
+}
