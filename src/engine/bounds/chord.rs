@@ -29,13 +29,11 @@ pub fn exceed_by_motion(
 }
 
 /// The same for absolute accelerations, from those without contact forces and those by them at both ends, the least and
-/// largest accelerations by contact forces, and bounds on the deviation of the rest from its chord; with a series, of the
-/// whole.
+/// largest accelerations by contact forces, and bounds on the deviation of the rest from its chord.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn exceed_by_push(
     [start, end, first, last]: [&[f64]; 4],
     [least, most, strays]: [&[f64]; 3],
-    has_series: bool,
     peaks: &mut [f64],
     excess: &mut [f64],
 ) {
@@ -43,14 +41,31 @@ pub fn exceed_by_push(
     let [start, end, first, last] = [start, end, first, last].map(|vector| &vector[..count]);
     let [least, most, strays] = [least, most, strays].map(|vector| &vector[..count]);
     let excess = &mut excess[..count];
-    let turns_within = if has_series { 4.0 } else { f64::INFINITY };
     for i in 0..count {
-        let ends = [start[i] + first[i], end[i] + last[i]];
-        peaks[i] = larger(peaks[i], larger(ends[0].abs(), ends[1].abs()));
+        peaks[i] = larger(peaks[i], larger((start[i] + first[i]).abs(), (end[i] + last[i]).abs()));
         let top = larger(start[i], end[i]) + most[i];
         let bottom = larger(-start[i], -end[i]) - least[i];
-        let goes_on = (ends[1] - ends[0]).abs() > turns_within * strays[i];
-        let over = larger(top, bottom) + strays[i] - peaks[i];
+        excess[i] = larger(top, bottom) + strays[i] - peaks[i];
+    }
+}
+
+/// The same where the deviation of the whole from its chord is bounded.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn exceed_by_deviation(
+    [start, end, first, last]: [&[f64]; 4],
+    strays: &[f64],
+    peaks: &mut [f64],
+    excess: &mut [f64],
+) {
+    let count = peaks.len();
+    let [start, end, first, last, strays] = [start, end, first, last, strays].map(|vector| &vector[..count]);
+    let excess = &mut excess[..count];
+    for i in 0..count {
+        let ends = [start[i] + first[i], end[i] + last[i]];
+        let most = larger(ends[0].abs(), ends[1].abs());
+        peaks[i] = larger(peaks[i], most);
+        let goes_on = (ends[1] - ends[0]).abs() > 4.0 * strays[i];
+        let over = most + strays[i] - peaks[i];
         excess[i] = if goes_on { 0.0 } else { over };
     }
 }

@@ -3,10 +3,10 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::chord::{add_forces, add_larger, exceed_by_motion, exceed_by_push};
+use crate::engine::bounds::chord::{add_forces, add_larger, exceed_by_deviation, exceed_by_motion, exceed_by_push};
 use crate::engine::model::Model;
 use crate::engine::peaks::reading::ContactStep;
-use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
+use crate::engine::peaks::room::{FloorRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::Dense;
 use crate::engine::taylor::solution::Solution;
@@ -38,8 +38,11 @@ impl Model {
         let motion = [&start.drift, &end.drift, &start.drifting, &end.drifting, parting].map(|of| &of[lanes.clone()]);
         exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
         let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
-        let bounds = [least, most, strays].map(|of| &of[lanes.clone()]);
-        exceed_by_push(ends, bounds, has_series, &mut peaks.values[of_accelerations], pushed);
+        let [least, most, strays] = [least, most, strays].map(|of| &of[lanes.clone()]);
+        match has_series {
+            true => exceed_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
+            false => exceed_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
+        }
         // Written so that a NaN is never below anything.
         let are_below = |excess: &[f64]| excess.iter().all(|excess| *excess <= 0.0);
         let are_floors_below = are_below(moved) && are_below(drifted) && are_below(pushed);
@@ -73,14 +76,12 @@ impl Model {
 
     /// Bounds by the series of a step: a floor's absolute acceleration a deviates from the chord of its values at both ends
     /// by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes these deviations,
-    /// m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them; returns whether
-    /// the step has such a series.
+    /// m/s2; returns whether the step has such a series.
     ///
     /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
     pub(super) fn bound_by_series(&self, part: &ContactStep, work: &mut PeakWork) -> bool {
         let Dense::Taylor(solution) = part.step.dense() else { return false };
-        let PeakRoom { floors: FloorRoom { strays, modal, least, most, pushes: [first, last], .. }, .. } =
-            &mut *work.peaks;
+        let FloorRoom { strays, modal, .. } = &mut work.peaks.floors;
         let is_on_modes = part.base.coordinates == Coordinates::Modes;
         let bounds = if is_on_modes { &mut *modal } else { &mut *strays };
         let of_ground = match solution.series.time_map.is_curved() {
@@ -96,9 +97,6 @@ impl Model {
             self.system.structure.bound_floors(modal, strays);
         }
         strays.iter_mut().for_each(|stray| *stray += of_ground);
-        for ((least, most), (first, last)) in least.iter_mut().zip(most).zip(first.iter().zip(&*last)) {
-            (*least, *most) = (-larger(-first, -last), larger(*first, *last));
-        }
         true
     }
 

@@ -2,7 +2,7 @@
 //! against what turns less.
 
 use super::motions::{Comparison, Random, largest};
-use crate::engine::bounds::chord::{exceed_by_motion, exceed_by_push};
+use crate::engine::bounds::chord::{exceed_by_deviation, exceed_by_motion, exceed_by_push};
 
 const INSTANTS: usize = 200;
 
@@ -95,15 +95,16 @@ fn no_acceleration_exceeds_its_peak_by_more_than_chords_say() {
         let scale = curve.top.abs() + stray[0];
         let mut force = || random.between(-1.0, 1.0) * scale;
         let (first, last, middle) = (force(), force(), force());
-        let range = match has_series {
-            true => [first.min(last), first.max(last)],
-            false => [first.min(last).min(middle), first.max(last).max(middle)],
-        };
+        let range = [first.min(last).min(middle), first.max(last).max(middle)];
         let resisted = if has_series { [ends[0] - first, ends[1] - last] } else { ends };
         let [start, end, first, last, least, most] =
             [resisted[0], resisted[1], first, last, range[0], range[1]].map(|number| [number]);
         let (mut peak, mut excess) = ([0.0], [f64::NAN]);
-        exceed_by_push([&start, &end, &first, &last], [&least, &most, &stray], has_series, &mut peak, &mut excess);
+        let at_ends = [&start[..], &end, &first, &last];
+        match has_series {
+            true => exceed_by_deviation(at_ends, &stray, &mut peak, &mut excess),
+            false => exceed_by_push(at_ends, [&least, &most, &stray], &mut peak, &mut excess),
+        }
         let push = |t: f64| match t {
             _ if has_series => 0.0,
             0.0 => first[0],

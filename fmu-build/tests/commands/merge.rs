@@ -1,10 +1,7 @@
 //! `cargo fmu merge`: one FMU with the libraries of two.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::{exporting, functions, library};
-use common::{Files, cargo_fmu, cargo_fmu_in, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use crate::common::libraries::{exporting, functions, library};
+use crate::common::{Files, cargo_fmu, cargo_fmu_in, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use pounding::FmiVersion;
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -1,11 +1,8 @@
 //! Archives that readers may understand in different ways, or that pretend: refused by `cargo fmu check` and
 //! `cargo fmu merge` alike, whatever the version of FMI.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::library;
-use common::{
+use crate::common::libraries::library;
+use crate::common::{
     Files, cargo_fmu, changed_description, feup_fmu, feup_fmu_of, files, option_of, patched, renamed, replace_once,
     stdout, write_fmu,
 };
@@ -28,7 +25,7 @@ fn refused(version: FmiVersion, bytes: &[u8], expected: &str) {
     there[1] = (format!("binaries/{folder}/FeupFrames.dll"), library(folder));
     write_fmu(Path::new(&path("there.fmu")), &there);
     let output = cargo_fmu(&["merge", &path("bad.fmu"), &path("there.fmu"), "-o", &path("both.fmu")]);
-    let said = common::stderr(&output);
+    let said = crate::common::stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("bad.fmu: ") && said.contains(expected), "no {expected:?} in {said}");
 }
@@ -111,7 +108,7 @@ fn a_description_of_the_other_version() {
         assert!(said.contains("library              WRONG") && said.contains(of_check), "{said}");
         let output =
             cargo_fmu(&["merge", &path, feup_fmu_of(other).to_str().unwrap(), "-o", &format!("{path}.both.fmu")]);
-        let said = common::stderr(&output);
+        let said = crate::common::stderr(&output);
         assert_eq!(output.status.code(), Some(1), "{said}");
         assert!(said.contains("mixed.fmu") && said.contains(of_merge), "{said}");
     }

@@ -1,9 +1,6 @@
 //! What `cargo fmu` says about a scene that may be built and looks like a slip, and what went into the run.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{build, cargo_fmu, changed_feup, feup_fmu_of, option_of, replace_once, root, stderr, stdout};
+use crate::common::{build, cargo_fmu, changed_feup, feup_fmu_of, option_of, replace_once, root, stderr, stdout};
 use pounding::FmiVersion;
 use tempfile::TempDir;
 

@@ -1,9 +1,8 @@
 //! `cargo fmu SCENE.toml`: what it writes, what it says, and how it fails.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{build, cargo_fmu, cargo_fmu_in, changed_feup, feup, feup_fmu, files, replace_once, root, stderr, stdout};
+use crate::common::{
+    build, cargo_fmu, cargo_fmu_in, changed_feup, feup, feup_fmu, files, replace_once, root, stderr, stdout,
+};
 use std::path::Path;
 use tempfile::TempDir;
 

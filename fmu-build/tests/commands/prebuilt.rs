@@ -1,10 +1,7 @@
 //! `cargo fmu --libraries`: FMUs with libraries that have been compiled before, for any platforms.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::library;
-use common::{Files, cargo_fmu, feup, feup_fmu, files, stderr, stdout, write_fmu};
+use crate::common::libraries::library;
+use crate::common::{Files, cargo_fmu, feup, feup_fmu, files, stderr, stdout, write_fmu};
 use std::path::{Path, PathBuf};
 use std::process::Output;
 use tempfile::TempDir;

@@ -1,9 +1,6 @@
 //! Commands that take turns compile nothing.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::root;
+use crate::common::root;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,8 +11,8 @@ use tempfile::TempDir;
 fn cargo(arguments: &[&str]) -> String {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo).args(arguments).current_dir(root()).output().unwrap();
-    assert!(output.status.success(), "{arguments:?}: {}", common::stderr(&output));
-    common::stderr(&output)
+    assert!(output.status.success(), "{arguments:?}: {}", crate::common::stderr(&output));
+    crate::common::stderr(&output)
 }
 
 /// Everything that cargo has compiled for these commands, and when.

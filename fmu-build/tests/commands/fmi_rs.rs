@@ -1,10 +1,7 @@
 //! FMUs in the simulator of fmi-rs, a master that is not ours: FMI 3.0 has the bits of FMI 2.0, whatever it is asked for.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![expect(clippy::arc_with_non_send_sync, reason = "fmi-rs wants its recorder in an `Arc`")]
 
-mod common;
-
-use common::{cargo_fmu, root, stderr};
+use crate::common::{cargo_fmu, root, stderr};
 use fmi::fmi3::LibraryKind;
 use fmi::model_description::{fmi2, fmi3};
 use fmi::sim;

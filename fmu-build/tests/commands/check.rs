@@ -1,10 +1,7 @@
 //! `cargo fmu check`: nothing wrong in a good FMU, and every planted defect found.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::{exporting, functions, library};
-use common::{Files, cargo_fmu, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use crate::common::libraries::{exporting, functions, library};
+use crate::common::{Files, cargo_fmu, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use pounding::FmiVersion;
 use serde_json::Value;
 use std::path::Path;

@@ -1,10 +1,7 @@
 //! `cargo fmu check` on FMUs whose library is not to be trusted: it always comes to an end, and says what happened.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::{functions, library, universal};
-use common::{Files, cargo_fmu, changed_description, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use crate::common::libraries::{functions, library, universal};
+use crate::common::{Files, cargo_fmu, changed_description, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use pounding::FmiVersion;
 use serde_json::Value;
 use std::path::PathBuf;

@@ -1,9 +1,6 @@
 //! `cargo fmu check --json`: the shape that `docs/check.schema.json` promises to scripts, whatever there is to report.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{cargo_fmu, changed_description, feup_fmu, files, replace_once, root, stderr, stdout, write_fmu};
+use crate::common::{cargo_fmu, changed_description, feup_fmu, files, replace_once, root, stderr, stdout, write_fmu};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;

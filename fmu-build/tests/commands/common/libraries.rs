@@ -1,6 +1,6 @@
 //! Libraries for any machine, made by hand: as much of each format as a library has to have, and no code in it.
 
-#[path = "../../src/functions.rs"]
+#[path = "../../../src/functions.rs"]
 mod functions;
 
 pub use functions::functions;

@@ -1,10 +1,7 @@
 //! FMI 3.0: `cargo fmu SCENE.toml --fmi 3`, and what `check` and `merge` do with such FMUs.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::libraries::{exporting, functions, library};
-use common::{
+use crate::common::libraries::{exporting, functions, library};
+use crate::common::{
     Files, cargo_fmu, cargo_fmu_in, feup, feup_fmu, feup_fmu_of, files, replace_once, root, stderr, stdout, write_fmu,
 };
 use pounding::FmiVersion;

@@ -1,9 +1,6 @@
 //! The licence page of the FMUs names every crate that is compiled into their library.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::root;
+use crate::common::root;
 use std::collections::BTreeSet;
 use std::process::Command;
 
@@ -17,8 +14,8 @@ fn the_page_names_the_crates_of_the_library() {
         .current_dir(root())
         .output()
         .unwrap();
-    assert!(output.status.success(), "{}", common::stderr(&output));
-    let tree = common::stdout(&output);
+    assert!(output.status.success(), "{}", crate::common::stderr(&output));
+    let tree = crate::common::stdout(&output);
     // The crate itself has a path behind its version.
     let linked: BTreeSet<&str> = tree.lines().filter(|line| !line.is_empty() && !line.contains(" (")).collect();
     assert!(linked.len() > 10, "{tree}");

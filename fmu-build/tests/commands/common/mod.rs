@@ -1,5 +1,4 @@
 //! `cargo fmu` as a user runs it, and FMUs to run it on.
-#![allow(dead_code)] // each test file uses its share
 
 pub mod libraries;
 
