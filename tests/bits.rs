@@ -70,12 +70,12 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case(laws.hertz_of_another_exponent(), RATIO), 0x7a8f_54b2_38d5_9d09),
         (case(laws.jankowski(), RATIO), 0x00e8_27e7_c594_037f),
         (case(damped(), MATRIX), 0x22f1_2e4a_c588_31f4),
-        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x77ea_1154_5190_1fb6),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xdf77_cf51_3a09_4e1a),
+        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x4541_3c1f_f646_3649),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xd5f3_40db_daa6_82a2),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x77e5_3a0d_87fb_134e),
-        (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0x47b4_31b4_c64b_2282),
-        (Case { yields: true, ..case(damped(), MATRIX) }, 0xe1ac_cfb0_40a1_0f15),
-        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0xa7ba_533b_f017_4041),
+        (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0xf8de_f7ad_d5c2_5e85),
+        (Case { yields: true, ..case(damped(), MATRIX) }, 0xe4d1_3c56_845e_130e),
+        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x6b12_30f9_5b73_511c),
         (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x3720_f6f3_3090_37b4),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
