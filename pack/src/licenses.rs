@@ -3,7 +3,7 @@
 use crate::archive::Entry;
 
 /// The entry page (`license.txt`, as FMI asks), which names the crates that are compiled into the library, and our two
-/// licences. `fmu-build/tests/licenses.rs` compares the page with what cargo says.
+/// licences. `fmu-build/tests/commands/licenses.rs` compares the page with what cargo says.
 const TEXTS: [(&str, &[u8]); 3] = [
     ("license.txt", include_bytes!("../licenses/license.txt")),
     ("LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),

@@ -4,10 +4,9 @@ use crate::engine::base::Base;
 use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::Flight;
-use crate::engine::quantities::resistance::FloorResistance;
-use crate::engine::quantities::rows::PeakRows;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::storeys::Storeys;
-use crate::engine::quantities::truncated::TruncatedRows;
+use crate::engine::quantities::watched::Watched;
 use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::numerics::identity::next_identity;
@@ -26,11 +25,7 @@ pub struct Model {
     pub(in crate::engine) energy: bool,
     pub(in crate::engine) flight: Flight,
     pub(in crate::engine) windows: Option<Windows>,
-    pub(in crate::engine) peak_rows: PeakRows,
-    /// The same over the oscillators that move in flights, where these are not the modes.
-    pub(in crate::engine) oscillating_rows: Option<PeakRows>,
-    pub(in crate::engine) truncated: TruncatedRows,
-    pub(in crate::engine) resistance: FloorResistance,
+    pub(in crate::engine) watched: Watched,
     pub(in crate::engine) storeys: Storeys,
     /// Natural frequencies of the left and the right building, ascending, Hz.
     pub(in crate::engine) frequencies: [Vec<f64>; 2],
@@ -50,17 +45,11 @@ impl Model {
     pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
         let system = System::of(scene, record)?;
         let structure = &system.structure;
-        let peak_rows = PeakRows::of(structure, scene.peaks);
-        let oscillating_rows = peak_rows.in_flight(structure);
-        let flight_rows = oscillating_rows.as_ref().unwrap_or(&peak_rows);
         let usual = system.ground.as_ref().map(GroundMotion::usual_length);
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            truncated: TruncatedRows::of(structure, flight_rows, usual, scene.floor_forces),
-            peak_rows,
-            oscillating_rows,
-            resistance: FloorResistance::of(structure),
+            watched: Watched::of(structure, scene.peaks, (usual, scene.floor_forces)),
             frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
@@ -71,17 +60,17 @@ impl Model {
         })
     }
 
-    /// The rows of what is watched in flights.
-    pub(in crate::engine) fn flight_rows(&self) -> &PeakRows {
-        self.oscillating_rows.as_ref().unwrap_or(&self.peak_rows)
+    /// What finds the peaks.
+    pub(in crate::engine) fn peaks(&self) -> PeakFinder<'_> {
+        PeakFinder { system: &self.system, watched: &self.watched }
     }
 
     /// Sets the position of rest to that of the storeys.
     pub(in crate::engine) fn set_rest(&self, base: &mut Base) {
         self.system.set_rest(&base.storeys, &mut base.rest);
-        base.rest.watched.resize(self.peak_rows.blocks() * LANES, 0.0);
-        if !base.storeys.is_empty() && !self.peak_rows.are_none() {
-            self.set_watched_at_rest(base);
+        base.rest.watched.resize(self.watched.rows.blocks() * LANES, 0.0);
+        if !base.storeys.is_empty() && !self.watched.rows.are_none() {
+            self.peaks().set_watched_at_rest(base);
         }
     }
 

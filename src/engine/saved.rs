@@ -69,7 +69,7 @@ impl Model {
     pub fn save(&self, state: &mut State) -> SavedState {
         self.system.settle(&mut state.base, state.work.for_energy());
         let (log, mut work) = state.work.for_log();
-        self.fold_log(&mut state.base, (log, &mut work));
+        self.peaks().fold_log(&mut state.base, (log, &mut work));
         let State { time, stop, base, step, inputs, counters, work: _ } = state;
         let is_planned = step.kind != StepKind::NotPlanned;
         SavedState {
@@ -135,7 +135,7 @@ impl Model {
         let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
         self.check_storeys(base)?;
         require(base.collapsed.is_none() || !saved.is_planned, "its run has ended, and goes on")?;
-        require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
+        require(base.peaks.fit(&self.peaks().start_peaks()), "the peaks in it are impossible")?;
         require(
             base.clearance.fits(self.system.cleared(), number, MOST_COUNTED),
             "what it tells of pairs apart is impossible",

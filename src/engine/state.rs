@@ -181,12 +181,12 @@ impl Workspace {
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         let floors = if model.system.floor_forces { model.system.structure.floors_of_both() } else { 0 };
-        let log = if model.logs_flights() { FlightLog::new(lanes, floors) } else { FlightLog::new(0, 0) };
+        let log = if model.peaks().logs_flights() { FlightLog::new(lanes, floors) } else { FlightLog::new(0, 0) };
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, model.system.limits()),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
-            peaks: model.peak_room(log.capacity()),
+            peaks: model.peaks().peak_room(log.capacity()),
             log,
             waiting: model.waiting(),
             switches: None,
@@ -211,7 +211,7 @@ impl Model {
         let mut state = State {
             time,
             stop: Stop::No,
-            base: self.system.start(time, self.start_peaks(), self.energy.then(Account::default)),
+            base: self.system.start(time, self.peaks().start_peaks(), self.energy.then(Account::default)),
             step: Step::new(&self.system),
             inputs,
             counters: Counters::default(),
@@ -221,7 +221,7 @@ impl Model {
         self.system.open_account(&mut state.base);
         // What is shown at the start counts, before a contact that begins at that very instant changes it.
         let mut peaks = std::mem::take(&mut state.base.peaks);
-        self.raise_to_motion(&state.base, &mut peaks);
+        self.peaks().raise_to_motion(&state.base, &mut peaks);
         state.base.peaks = peaks;
         state
     }

@@ -74,7 +74,7 @@ impl Model {
     ) -> u64 {
         if work.log.is_full() {
             let (log, mut peaks) = work.for_log();
-            self.fold_log(base, (log, &mut peaks));
+            self.peaks().fold_log(base, (log, &mut peaks));
         }
         if work.waiting.is_full() {
             self.system.settle(base, work.for_energy());

@@ -324,17 +324,17 @@ impl Model {
 
     /// Moves the contacts through the step to its end, and logs it or raises the peaks over it.
     fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
-        let start = base.time();
-        let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
+        let (peaks, start) = (self.peaks(), base.time());
+        let is_watched = !self.watched.rows.are_none() && step.planned.length > 0.0;
         let is_flight = step.kind == StepKind::Flight;
         match is_flight && is_watched {
-            true if self.logs_flights() => self.log_flight(base, step, inputs, work.for_log()),
-            true => self.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
-            false => self.note_starts(&base.contacts, &mut work.for_peaks()),
+            true if peaks.logs_flights() => peaks.log_flight(base, step, inputs, work.for_log()),
+            true => peaks.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
+            false => peaks.note_starts(&base.contacts, &mut work.for_peaks()),
         }
         step.follow(&self.system, &mut base.contacts, start);
         if is_watched && !is_flight {
-            self.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
+            peaks.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
         }
     }
 }

@@ -21,7 +21,7 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         if base.is_forced() {
-            self.leave_flight(base, work.for_log());
+            self.peaks().leave_flight(base, work.for_log());
         }
         let mut at = At { base, inputs, counters };
         step.kind = match at.base.is_forced() {

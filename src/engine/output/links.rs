@@ -51,7 +51,7 @@ impl<'a> Instant<'a> {
         let (model, peak) = (self.model, self.peak(of));
         let PeakOf::LinkForce(l) = of else { return peak };
         let has_slipped = |storey: &Storey| storey.furthest > 0.0 && model.system.structure.links[l].dashpot == 0.0;
-        let line = self.slip_of(l).filter(|(_, storey)| has_slipped(storey) && !model.peak_rows.are_none());
+        let line = self.slip_of(l).filter(|(_, storey)| has_slipped(storey) && !model.watched.rows.are_none());
         line.map_or(peak, |(of, storey)| peak.max(of.peak_shear(storey)))
     }
 

@@ -20,10 +20,10 @@ impl Instant<'_> {
     /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks.
     pub(super) fn peak(&self, of: PeakOf) -> f64 {
         let Instant { model, state, point } = *self;
-        if model.peak_rows.are_none() {
+        if model.watched.rows.are_none() {
             return 0.0;
         }
-        let place = model.peak_rows.place(of);
+        let place = model.watched.rows.place(of);
         let mut known = point.peaks.borrow_mut();
         if known.observation != point.floors.observation {
             known.observation = point.floors.observation;
@@ -38,10 +38,9 @@ impl Model {
     #[inline(never)]
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
         let State { base, step, inputs, .. } = state;
-        let mut room = known
-            .work
-            .take()
-            .unwrap_or_else(|| Box::new((self.buffers(), self.peak_room(usize::from(self.logs_flights())))));
+        let mut room = known.work.take().unwrap_or_else(|| {
+            Box::new((self.buffers(), self.peaks().peak_room(usize::from(self.peaks().logs_flights()))))
+        });
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
         self.fold_into_point(state, known, work);
@@ -49,15 +48,15 @@ impl Model {
         peaks.clone_from(folded);
         let elapsed = state.since_base();
         match () {
-            _ if elapsed == 0.0 && base.is_forced() => self.raise_to_contact(base, peaks, work),
+            _ if elapsed == 0.0 && base.is_forced() => self.peaks().raise_to_contact(base, peaks, work),
             _ if elapsed == 0.0 && state.work.log.is_open() => {}
-            _ if elapsed == 0.0 => self.raise_to_motion(base, peaks),
+            _ if elapsed == 0.0 => self.peaks().raise_to_motion(base, peaks),
             _ if elapsed > 0.0 && step.is_in_contact() => {
                 q.clone_from(&point.q);
                 for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
                     of.move_rest(point.coordinates, (now, storey), q);
                 }
-                self.raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
+                self.peaks().raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
             }
             _ => self.read_peaks_of_flight(state, (point, elapsed), ahead, peaks, work),
         }
@@ -76,14 +75,14 @@ impl Model {
         let flights = log.flights_from(known.entries, (&base.q, &base.v));
         let (rest, count) = (&base.rest.watched, flights.loads.len());
         let PointPeaks { folded, peaks, ahead, .. } = known;
-        if !self.fold_expected((&flights, rest), ahead, folded, work) {
-            self.fold(&flights, rest, None, folded, work);
+        if !self.peaks().fold_expected((&flights, rest), ahead, folded, work) {
+            self.peaks().fold(&flights, rest, None, folded, work);
             ahead.forget();
         }
         known.entries = log.count();
         if ahead.are_none() && log.is_open() && count <= OFTEN {
             peaks.clone_from(folded);
-            self.look_at_flights_ahead(base, ahead, peaks, work);
+            self.peaks().look_at_flights_ahead(base, ahead, peaks, work);
         }
     }
 
@@ -106,12 +105,12 @@ impl Model {
         }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
-        let is_folded = self.logs_flights() && !self.system.floor_forces;
-        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match is_folded {
-            true => self.fold(&part, whole.rest, Some(whole), peaks, work),
+        let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
+        self.peaks().with_flight(base, inputs, (length, &q, &v), work, |whole, work| match is_folded {
+            true => self.peaks().fold(&part, whole.rest, Some(whole), peaks, work),
             false => {
                 let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
-                self.check_blocks(&part, peaks, work);
+                self.peaks().check_blocks(&part, peaks, work);
             }
         });
         (work.buffers.q, work.buffers.v) = (q, v);

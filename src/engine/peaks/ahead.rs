@@ -8,7 +8,7 @@ use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::flight::log::FlightLog;
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold::is_below;
 use crate::engine::peaks::fold_room::{LONG, Survivor};
 use crate::engine::peaks::room::PeakWork;
@@ -65,7 +65,7 @@ impl FlightsAhead {
     }
 }
 
-impl Model {
+impl PeakFinder<'_> {
     /// Raises peaks over the flights, if they are those that are expected; returns whether they are.
     pub(in crate::engine) fn fold_expected(
         &self,

@@ -5,8 +5,8 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::model::Model;
 use crate::engine::pairs::row::FloorShare;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
@@ -25,7 +25,7 @@ const TRUSTED: f64 = 1e-6;
 /// The same with which the series tells the value too.
 const EXACT: f64 = 1e-11;
 
-impl Model {
+impl PeakFinder<'_> {
     /// Notes forces, penetrations and rates of the contacts at the start of a step.
     pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut PeakWork) {
         let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
@@ -107,9 +107,9 @@ impl Model {
                 ];
                 // Accelerations depend on the floor forces, which may have just been set.
                 let known = if self.system.floor_forces { &now[..2] } else { &now };
-                known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
+                known.iter().for_each(|&(of, value)| peaks.raise(self.watched.rows.place(of), value));
             }
-            peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
+            peaks.raise(self.watched.rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
         }
         self.raise_to_links(base, peaks, work);
     }
@@ -206,7 +206,7 @@ impl Model {
                 }
                 let FloorRoom { end, pushes: [_, pushed], .. } = &work.peaks.floors;
                 let at_end = [end.u[lane], end.drift[lane], end.resisted[lane] + pushed[lane]][kind];
-                let place = self.peak_rows.place(of(side, floor));
+                let place = self.watched.rows.place(of(side, floor));
                 let peak = self.highest_in_contact(of(side, floor), (peaks.values[place], at_end), part, work);
                 peaks.raise(place, peak);
             }
@@ -226,7 +226,7 @@ impl Model {
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let place = self.peak_rows.place(of);
+        let place = self.watched.rows.place(of);
         // Written so that a NaN is never below anything.
         let is_below = bound <= peaks.values[place];
         if !is_below {
@@ -251,9 +251,9 @@ impl Model {
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
-        let span = self.span_of(self.peak_rows.body_of(self.peak_rows.place(of) / LANES), part.base.coordinates);
+        let span = self.span_of(self.watched.rows.body_of(self.watched.rows.place(of) / LANES), part.base.coordinates);
         let step = part.step;
-        let at_rest = part.base.rest.watched[self.peak_rows.place(of)] + self.soften_row(of, part.base, &mut rows);
+        let at_rest = part.base.rest.watched[self.watched.rows.place(of)] + self.soften_row(of, part.base, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,

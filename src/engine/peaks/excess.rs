@@ -4,7 +4,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::chord::{add_forces, add_larger, exceed_by_deviation, exceed_by_motion, exceed_by_push};
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
@@ -14,7 +14,7 @@ use crate::numerics::polynomial::larger;
 use crate::scene::Place;
 use crate::structure::{MotionSeries, Side};
 
-impl Model {
+impl PeakFinder<'_> {
     /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and works out by how much they
     /// may be exceeded in between, by the bounds on its floors; returns whether any may.
     pub(super) fn find_excess(
@@ -27,7 +27,7 @@ impl Model {
         let lanes = self.system.structure.floors.lanes_of(side as usize);
         let of_peaks =
             [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)].map(|of| {
-                let first = self.peak_rows.place(of);
+                let first = self.watched.rows.place(of);
                 first..first + lanes.len()
             });
         let [of_displacements, of_drifts, of_accelerations] = of_peaks;
@@ -46,7 +46,7 @@ impl Model {
         // Written so that a NaN is never below anything.
         let are_below = |excess: &[f64]| excess.iter().all(|excess| *excess <= 0.0);
         let are_floors_below = are_below(moved) && are_below(drifted) && are_below(pushed);
-        let shear = peaks.values[self.peak_rows.place(PeakOf::BaseShear(side))];
+        let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
         !(are_floors_below && self.bound_shear(side, h, room).1 <= shear)
     }
 

@@ -12,17 +12,17 @@ use crate::engine::bounds::cubic::course_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::room::{LEAVES, MOST_PIECES, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, PeakOf};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 
-impl Model {
+impl PeakFinder<'_> {
     /// Raises the peaks over a flight.
     pub(in crate::engine) fn check_blocks(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for body in &self.flight_rows().bodies {
+        for body in &self.watched.in_flight().bodies {
             let jerk = &mut work.buffers.node_v;
             work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), flight, jerk);
             for b in 0..body.blocks.len() {
@@ -35,13 +35,14 @@ impl Model {
     /// Raises peaks to the motion of the base, without contact forces. An input that has just been set
     /// does not count yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
-        let rows = if base.oscillates { self.flight_rows() } else { &self.peak_rows };
+        let rows = if base.oscillates { self.watched.in_flight() } else { &self.watched.rows };
         for body in &rows.bodies {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[body.modes.clone()]);
             for b in 0..body.blocks.len() {
                 for (i, value) in self.values_at((body, b), &base.rest.watched, (q, v)).into_iter().enumerate() {
                     let place = (body.first + b) * LANES + i;
-                    if !(self.system.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..))))
+                    if !(self.system.floor_forces
+                        && matches!(self.watched.rows.at(place), Some(PeakOf::Acceleration(..))))
                     {
                         peaks.raise(place, value);
                     }
@@ -53,7 +54,7 @@ impl Model {
     /// Writes the accelerations by floor forces at the base, m/s2, and their rates, m/s3.
     pub(in crate::engine) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
         for (place, direct) in direct.iter_mut().enumerate() {
-            if let Some(PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
+            if let Some(PeakOf::Acceleration(side, floor)) = self.watched.rows.at(place) {
                 let force = &inputs.floor_forces[inputs.place(side, floor)];
                 let inverse =
                     self.system.structure.floors.inverse_mass(self.system.structure.floors.lane(side as usize, floor));
@@ -98,7 +99,7 @@ impl Model {
             peaks.raise(place + i, larger(course.start[0][i].abs(), course.end[0][i].abs()));
             let peak = peaks.values[place + i];
             if course.may_turn_above(i, h, peak)
-                && let Some(of) = self.peak_rows.at(place + i)
+                && let Some(of) = self.watched.rows.at(place + i)
             {
                 work.peaks.suspects.push(Suspect {
                     of,

@@ -6,7 +6,7 @@
 //! accelerations by all forces, A <= B + T A, and so A <= B + T B + |T|^2 / (1 - |T|) max B.
 
 use crate::engine::base::{Base, Coordinates, Rest};
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
@@ -17,7 +17,7 @@ use crate::structure::{LANES, Side};
 /// Largest |T| for which the bound is used.
 const FURTHEST: f64 = 0.5;
 
-impl Model {
+impl PeakFinder<'_> {
     /// Works out the floors of a motion relative to a position of `rest`, without floor forces; `modal` is a scratch vector.
     pub(in crate::engine) fn find_floors(
         &self,
@@ -47,7 +47,7 @@ impl Model {
         out.shear = Side::BOTH.map(|side| self.shear_of(side, out));
         if !self.system.storeys.is_empty() {
             for side in Side::BOTH {
-                out.shear[side as usize] += rest.watched[self.peak_rows.place(PeakOf::BaseShear(side))];
+                out.shear[side as usize] += rest.watched[self.watched.rows.place(PeakOf::BaseShear(side))];
             }
             out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);
         }
@@ -71,7 +71,7 @@ impl Model {
 
     /// Works out the deviations T A of a body's floors in a step of h seconds; `largest` holds B before and A after.
     pub(in crate::engine) fn find_strays(&self, b: usize, h: f64, room: &mut FloorRoom) {
-        let Resistance { dense, most, .. } = &self.resistance.bodies[b];
+        let Resistance { dense, most, .. } = &self.watched.resistance.bodies[b];
         let body = &self.system.structure.bodies[b];
         let lanes = body.lanes.clone();
         let factors = [0.125 * h * h, 0.5 * h];
@@ -108,7 +108,7 @@ impl Model {
 
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
     pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
-        let [on_u, on_v] = self.resistance.shear(side as usize);
+        let [on_u, on_v] = self.watched.resistance.shear(side as usize);
         let largest = &largest[self.system.structure.floors.lanes_with_foundation(side as usize)];
         let terms = on_u.iter().zip(on_v).zip(largest);
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
@@ -116,7 +116,7 @@ impl Model {
 
     /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
     fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
-        let [on_u, on_v] = self.resistance.shear(side as usize);
+        let [on_u, on_v] = self.watched.resistance.shear(side as usize);
         let lanes = self.system.structure.floors.lanes_with_foundation(side as usize);
         let [u, v] = [&floors.u[lanes.clone()], &floors.v[lanes]];
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));

@@ -11,7 +11,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold_room::{FoldRoom, OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
@@ -31,7 +31,7 @@ struct Fold<'a> {
     rise: bool,
 }
 
-impl Model {
+impl PeakFinder<'_> {
     /// Raises peaks over some flights on the ground's motion, with these quantities at rest. If they are the first part of
     /// one flight, it is searched as a `whole`, so that turning points have the same bits whatever part is read.
     pub(in crate::engine) fn fold(
@@ -63,7 +63,7 @@ impl Model {
             true => room.short.part(flights),
             false => room.long.part(flights),
         }
-        for (rows, truncated) in self.flight_rows().bodies.iter().zip(&self.truncated.bodies) {
+        for (rows, truncated) in self.watched.in_flight().bodies.iter().zip(&self.watched.truncated.bodies) {
             let of_body = rows.first..rows.first + rows.blocks.len();
             let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
@@ -102,7 +102,7 @@ impl Model {
             if is_below(&survivor.upper, known) {
                 return false;
             }
-            let rows = &self.flight_rows().bodies[self.peak_rows.body_of(survivor.block)];
+            let rows = &self.watched.in_flight().bodies[self.watched.rows.body_of(survivor.block)];
             let at_rest = &rest.as_chunks::<LANES>().0[survivor.block];
             let [push, rate] = self.pushes(flights, survivor);
             let times = [0.0, flights.load(survivor.flight).length];
@@ -131,8 +131,9 @@ impl Model {
         let Some(acting) = flights.forces.and_then(|forces| forces.acting(survivor.flight)) else {
             return [[0.0; LANES]; 2];
         };
-        let body = self.peak_rows.body_of(survivor.block);
-        let floors = self.truncated.bodies[body].blocks[survivor.block - self.peak_rows.bodies[body].first].pushed;
+        let body = self.watched.rows.body_of(survivor.block);
+        let floors =
+            self.watched.truncated.bodies[body].blocks[survivor.block - self.watched.rows.bodies[body].first].pushed;
         floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
     }
 
@@ -183,7 +184,7 @@ impl Model {
 
     fn search_stretch(&self, stretch: &Stretch, survivors: &[Survivor], peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for body in &self.flight_rows().bodies {
+        for body in &self.watched.in_flight().bodies {
             let own = body.first..body.first + body.blocks.len();
             let mut is_bounded = false;
             for survivor in survivors.iter().filter(|survivor| own.contains(&survivor.block)) {

@@ -2,7 +2,7 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, FloorState, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
@@ -12,12 +12,12 @@ use crate::numerics::polynomial::larger;
 /// monotonic.
 type Course = (PeakOf, [f64; 2], (f64, bool));
 
-impl Model {
+impl PeakFinder<'_> {
     /// Whether a peak of a link may be exceeded over the step, by the bounds on its floors.
     pub(in crate::engine) fn links_may_exceed(&self, part: &ContactStep, peaks: &Peaks, work: &PeakWork) -> bool {
         let mut courses = (0..self.system.structure.links.len()).flat_map(|l| self.courses_of_link(l, part, work));
         // Written so that a NaN is never below anything.
-        !courses.all(|(of, _, (bound, _))| bound <= peaks.values[self.peak_rows.place(of)])
+        !courses.all(|(of, _, (bound, _))| bound <= peaks.values[self.watched.rows.place(of)])
     }
 
     /// Raises the peaks of all links over the step.
@@ -33,8 +33,8 @@ impl Model {
     pub(in crate::engine) fn raise_to_links(&self, base: &Base, peaks: &mut Peaks, work: &PeakWork) {
         for l in 0..self.system.structure.links.len() {
             let [closing, _, force] = self.link_at(l, base, &work.peaks.floors.start, 0.0);
-            peaks.raise(self.peak_rows.place(PeakOf::LinkDisplacement(l)), closing);
-            peaks.raise(self.peak_rows.place(PeakOf::LinkForce(l)), force);
+            peaks.raise(self.watched.rows.place(PeakOf::LinkDisplacement(l)), closing);
+            peaks.raise(self.watched.rows.place(PeakOf::LinkForce(l)), force);
         }
     }
 

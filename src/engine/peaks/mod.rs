@@ -33,17 +33,25 @@ use crate::engine::bounds::flights::{Load, set_energies};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::log::FlightLog;
-use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::quantities::watched::Watched;
 use crate::engine::step::Step;
+use crate::engine::system::System;
+
+/// What finds peaks: what is watched in a system, raised over each kind of step.
+#[derive(Clone, Copy)]
+pub(in crate::engine) struct PeakFinder<'a> {
+    pub system: &'a System,
+    pub watched: &'a Watched,
+}
 
 /// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
 const WORTH_FOLDING: usize = 128;
 
-impl Model {
+impl PeakFinder<'_> {
     /// Peaks of 0.
     pub(in crate::engine) fn start_peaks(&self) -> Peaks {
-        Peaks::new(self.peak_rows.blocks())
+        Peaks::new(self.watched.rows.blocks())
     }
 
     /// Raises the peaks of the base over the planned flight, at once: where damping couples the modes, flights are not
@@ -63,13 +71,13 @@ impl Model {
 
     /// Scratch memory, in which so many flights can be folded at once.
     pub(in crate::engine) fn peak_room(&self, flights: usize) -> PeakRoom {
-        let rows = (&self.peak_rows, &self.truncated);
+        let rows = (&self.watched.rows, &self.watched.truncated);
         PeakRoom::new(&self.system.structure, rows, self.system.pairs.len(), flights)
     }
 
     /// Whether flights are logged, and the peaks raised over them later.
     pub(in crate::engine) fn logs_flights(&self) -> bool {
-        !self.peak_rows.are_none() && self.system.structure.in_flight().is_classical()
+        !self.watched.rows.are_none() && self.system.structure.in_flight().is_classical()
     }
 
     /// Logs the planned flight.

@@ -5,8 +5,8 @@ use crate::collocation::MOST_PAIRS;
 use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
-use crate::engine::model::Model;
 use crate::engine::onset::series::OnsetSeries;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest_by};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
 use crate::engine::quantities::rows::PeakOf;
@@ -84,7 +84,7 @@ pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, pa
     highest((known, *until), whole, PARTS_OF_ONSET, |time| series.read(time, onset, quantity.ground))
 }
 
-impl Model {
+impl PeakFinder<'_> {
     /// The largest magnitude of a quantity in the first part of a window, or `known` if that is larger; with the series
     /// of the motion without contact forces.
     pub(in crate::engine) fn highest_in_window(

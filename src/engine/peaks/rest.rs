@@ -1,17 +1,17 @@
 //! The part of displacements and drifts by the position of rest, to which the motion is relative.
 
 use crate::engine::base::{Base, Coordinates, Rest};
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::rows::{BodyRows, PeakOf, values_of};
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Side};
 
-impl Model {
+impl PeakFinder<'_> {
     /// Writes the watched quantities in the position of rest of the storeys of the base: accelerations are 0, and so are base
     /// shears without links.
     pub(in crate::engine) fn set_watched_at_rest(&self, base: &mut Base) {
         let Base { rest: Rest { floors, watched, .. }, storeys, .. } = base;
-        let (system, place) = (&self.system, |of| self.peak_rows.place(of));
+        let (system, place) = (&self.system, |of| self.watched.rows.place(of));
         for l in 0..system.structure.links.len() {
             let closing = system.link_closing_of_floors(l, floors);
             watched[place(PeakOf::LinkDisplacement(l))] = closing;

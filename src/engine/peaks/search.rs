@@ -4,7 +4,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
-use crate::engine::model::Model;
+use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
@@ -58,7 +58,7 @@ impl Piece {
     }
 }
 
-impl Model {
+impl PeakFinder<'_> {
     /// Raises the peaks of the quantities that may exceed theirs within a flight. They are searched for in the whole
     /// flight, so that a turning point has the same bits whatever part is asked for, and all together: many of them
     /// turn at about the same time. The bounds on the modes have to be those of the flight.
@@ -245,7 +245,7 @@ impl Model {
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
         let own =
             Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
-        for body in &self.flight_rows().bodies {
+        for body in &self.watched.in_flight().bodies {
             peaks.piece.set(self.system.structure.in_flight(), body.modes.clone(), &own, jerk);
         }
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
@@ -264,7 +264,7 @@ impl Model {
 
     /// The body and the block of a quantity.
     fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
-        self.flight_rows().block_of(place)
+        self.watched.in_flight().block_of(place)
     }
 
     /// Finds the largest magnitudes within a leaf by its series.
@@ -277,7 +277,7 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
-        let oscillates = self.oscillating_rows.is_some();
+        let oscillates = self.watched.oscillates();
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
         for suspects in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
             if !are_any_left(suspects) {
@@ -355,7 +355,7 @@ impl Model {
 
     /// The number of the body to which a quantity belongs.
     fn body_of(&self, suspect: &Suspect) -> usize {
-        self.peak_rows.body_of(suspect.place / LANES)
+        self.watched.rows.body_of(suspect.place / LANES)
     }
 
     /// The first lane of a body in some coordinates, and the one after its last.
@@ -379,14 +379,14 @@ impl Model {
         if coordinates == Coordinates::Floors {
             return self.set_rows_of_floors(of, rows);
         }
-        self.set_rows_of_modes(of, &self.peak_rows, rows);
+        self.set_rows_of_modes(of, &self.watched.rows, rows);
         None
     }
 
     /// The same for a flight.
     fn set_flight_rows(&self, of: PeakOf, rows: &mut [Vec<f64>; 2]) {
         rows.iter_mut().for_each(|row| row.fill(0.0));
-        self.set_rows_of_modes(of, self.flight_rows(), rows);
+        self.set_rows_of_modes(of, self.watched.in_flight(), rows);
     }
 
     /// The same over modes or oscillators, from rows of zeros.
@@ -416,7 +416,7 @@ impl Model {
                 Some((lane, storey.checked_sub(1).map(|_| lane - 1)))
             }
             PeakOf::BaseShear(side) => {
-                self.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
+                self.watched.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
                 None
             }
             // Linked buildings move in modes.

@@ -5,3 +5,4 @@ pub(super) mod resistance;
 pub(super) mod rows;
 pub(super) mod storeys;
 pub(super) mod truncated;
+pub(super) mod watched;

@@ -133,7 +133,7 @@ impl Case {
     /// What a force adds to a quantity at a time of flight `k`, s.
     fn push_on(&self, place: usize, k: usize, time: f64) -> f64 {
         let structure = &self.model.system.structure;
-        let Some(PeakOf::Acceleration(side, floor)) = self.model.peak_rows.at(place) else { return 0.0 };
+        let Some(PeakOf::Acceleration(side, floor)) = self.model.watched.rows.at(place) else { return 0.0 };
         let Some((forces, rates)) = self.flights().forces.and_then(|forces| forces.acting(k)) else { return 0.0 };
         let number = structure.number(side, floor);
         (forces[number] + rates[number] * time)
@@ -155,7 +155,7 @@ fn compare<const N: usize>(case: &Case) -> f64 {
     let flights = case.flights();
     let motions: Vec<Vec<_>> = (0..flights.count()).map(|k| case.instants(k)).collect();
     let mut nearest = f64::INFINITY;
-    for (rows, truncated) in case.model.flight_rows().bodies.iter().zip(&case.model.truncated.bodies) {
+    for (rows, truncated) in case.model.watched.in_flight().bodies.iter().zip(&case.model.watched.truncated.bodies) {
         let groups = truncated.groups.len();
         let mut motion = vec![[[0.0; N]; 2]; truncated.slow];
         let mut sizes = vec![ModeSizes::default(); truncated.slow];
@@ -223,7 +223,7 @@ fn no_quantity_passes_its_bounds_over_a_span() {
         for (rate, damping) in [2.0, 12.0, 60.0].into_iter().flat_map(|rate| [0.0, 0.05, 0.4].map(|of| (rate, of))) {
             for (kind, has) in [(false, false), (true, false), (false, true)].into_iter().enumerate() {
                 let mut case = Case::new(&mut random, storeys, (rate, damping), has);
-                if !case.model.logs_flights() {
+                if !case.model.peaks().logs_flights() {
                     continue;
                 }
                 case.fly(&mut random, 37, 1.0);
@@ -231,9 +231,9 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 case.fly(&mut random, 20, factor);
                 let nearest = &mut nearest[kind];
                 *nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
-                let of_oscillators = case.model.truncated.bodies.iter().filter(|body| body.oscillates);
+                let of_oscillators = case.model.watched.truncated.bodies.iter().filter(|body| body.oscillates);
                 oscillating += of_oscillators.filter(|body| !body.groups.is_empty()).count();
-                truncated += case.model.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
+                truncated += case.model.watched.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
             }
         }
     }
@@ -252,7 +252,7 @@ fn no_quantity_leaves_its_envelope() {
         let case = Case::new(&mut random, storeys, (12.0, 0.05), (false, is_linked));
         let structure = case.model.system.structure.in_flight();
         for (rows, mode) in
-            case.model.flight_rows().bodies.iter().flat_map(|rows| rows.modes.clone().map(move |m| (rows, m)))
+            case.model.watched.in_flight().bodies.iter().flat_map(|rows| rows.modes.clone().map(move |m| (rows, m)))
         {
             let ground = [(0.0, 0.0), (1.0, 0.0), (0.5, random.between(-9.0, 9.0))];
             let (a, s) = random.one_of(&ground);
