@@ -28,13 +28,13 @@ pub fn course_of(
 ) -> Course {
     let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
     let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
-    let [first, last, slow, quick] =
-        [&bounds.first, &bounds.last, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
+    let [first, last, on_q, on_v] =
+        [&bounds.first, &bounds.last, &bounds.fourth_on_q, &bounds.fourth_on_v].map(|vector| &vector[modes.clone()]);
     let [start, end] = known_ends.unwrap_or_else(|| {
         let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
         ends.map(|values| each(|i| values[i] + at_rest[i]))
     });
-    let [slope, end_slope, fourth] = sums_of(block, [(rate, first), (end_rate, last)], (slow, quick));
+    let [slope, end_slope, fourth] = sums_of(block, [(rate, first), (end_rate, last)], (on_q, on_v));
     Course { start: [start, slope], end: [end, end_slope], fourth }
 }
 

@@ -14,12 +14,13 @@ pub fn stay_below(
     (bounds, modes): (&ModeBounds, &Range<usize>),
     direct: Option<(&[[f64; 2]], f64, f64)>,
 ) -> [bool; LANES] {
-    let [held, held_end] = &bounds.held;
-    let [held, held_end, rate, swing_q, swing] =
-        [held, held_end, &bounds.held_rate, &bounds.swing_q, &bounds.swing].map(|vector| &vector[modes.clone()]);
+    let [quasi_static, quasi_static_end] = &bounds.quasi_static;
+    let [quasi_static, quasi_static_end, rate, swing_q, swing] =
+        [quasi_static, quasi_static_end, &bounds.quasi_static_rate, &bounds.swing_q, &bounds.swing]
+            .map(|vector| &vector[modes.clone()]);
     // By the quasi-static displacements at the start and at the end, their rate, and the amplitudes of the oscillation about
     // them in q and in q'.
-    let [start, end, swings] = sums_of(block, [(held, rate), (held_end, rate)], (swing_q, swing));
+    let [start, end, swings] = sums_of(block, [(quasi_static, rate), (quasi_static_end, rate)], (swing_q, swing));
     let added = |i: usize| {
         direct.map_or(0.0, |(direct, from, h)| {
             let [value, rate] = direct[i];

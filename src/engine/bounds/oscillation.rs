@@ -62,11 +62,11 @@ impl<'a> Oscillation<'a> {
                 let radius = if self.structure.is_classical() { radius } else { self.shared_radius(body, m) };
                 let ([a, b], w2) = (row.entries(m), self.structure.omega2[m]);
                 let by_rate = if b == 0.0 { 0.0 } else { b * self.loads.1[m] / w2 };
-                let held = a * quasi_static + by_rate;
-                start += held;
+                let followed = a * quasi_static + by_rate;
+                start += followed;
                 change += a * drift;
                 swing += (a.abs() + b.abs() * w2.sqrt()) * radius;
-                size += held.abs() + (a * drift).abs();
+                size += followed.abs() + (a * drift).abs();
             }
         }
         // Written so that a NaN never counts as below.

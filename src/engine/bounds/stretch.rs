@@ -43,13 +43,13 @@ pub struct ModeBounds {
     /// The same amplitude in q.
     pub swing_q: Vec<f64>,
     /// Quasi-static displacements at the start and at the end.
-    pub held: [Vec<f64>; 2],
+    pub quasi_static: [Vec<f64>; 2],
     /// Rate of the quasi-static displacements.
-    pub held_rate: Vec<f64>,
+    pub quasi_static_rate: Vec<f64>,
     /// Factors of |A| in the bound on a fourth derivative.
-    pub slow: Vec<f64>,
+    pub fourth_on_q: Vec<f64>,
     /// Factors of |B| in the bound on a fourth derivative.
-    pub quick: Vec<f64>,
+    pub fourth_on_v: Vec<f64>,
 }
 
 impl ModeBounds {
@@ -62,10 +62,10 @@ impl ModeBounds {
             energy_over_w: vector(),
             swing: vector(),
             swing_q: vector(),
-            held: [vector(), vector()],
-            held_rate: vector(),
-            slow: vector(),
-            quick: vector(),
+            quasi_static: [vector(), vector()],
+            quasi_static_rate: vector(),
+            fourth_on_q: vector(),
+            fourth_on_v: vector(),
         }
     }
 
@@ -93,8 +93,8 @@ impl ModeBounds {
                 true => (2.0 * structure.fastest, 3.0 * structure.fastest * structure.fastest),
                 false => (structure.quickness[m], c * structure.quickness[m] + w2),
             };
-            self.quick[m] = change * self.energy[m];
-            self.slow[m] = speed * self.energy[m];
+            self.fourth_on_v[m] = change * self.energy[m];
+            self.fourth_on_q[m] = speed * self.energy[m];
             self.energy_over_w[m] = self.energy[m] / w2.sqrt();
         }
         if !flight.is_suspect {
@@ -123,14 +123,14 @@ impl ModeBounds {
         // With coupled modes the quasi-static displacement under a changing load is not worked out: the whole load is
         // taken to increase the amplitude.
         let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);
-        let [held, held_end] = &mut self.held;
+        let [quasi_static, quasi_static_end] = &mut self.quasi_static;
         for m in modes.clone() {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
             let rate = if is_pushed { 0.0 } else { slope[m] / w2 };
-            held[m] = if is_pushed { 0.0 } else { load[m] / w2 - c * rate / w2 };
-            (self.held_rate[m], held_end[m]) = (rate, held[m] + rate * flight.length);
-            let (h, dh) = (q[m] - held[m], v[m] - rate);
-            self.swing[m] = (dh * dh + w2 * h * h).sqrt() + MARGIN * w2.sqrt() * (held[m].abs() + q[m].abs());
+            quasi_static[m] = if is_pushed { 0.0 } else { load[m] / w2 - c * rate / w2 };
+            (self.quasi_static_rate[m], quasi_static_end[m]) = (rate, quasi_static[m] + rate * flight.length);
+            let (h, dh) = (q[m] - quasi_static[m], v[m] - rate);
+            self.swing[m] = (dh * dh + w2 * h * h).sqrt() + MARGIN * w2.sqrt() * (quasi_static[m].abs() + q[m].abs());
         }
         if is_coupled {
             share(&mut self.swing[modes.clone()]);
