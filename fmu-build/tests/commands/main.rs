@@ -1,7 +1,6 @@
 //! `cargo fmu` and its commands, as a user runs them. One program: most of a test of a few lines would be compiling it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod alternation;
 mod check;
 mod check_report;
 mod check_trial;

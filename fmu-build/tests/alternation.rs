@@ -1,6 +1,6 @@
-//! Commands that take turns compile nothing.
+//! Commands that take turns compile nothing. A program of its own: while it looks nobody else may compile.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use crate::common::root;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,9 +10,11 @@ use tempfile::TempDir;
 /// Runs a cargo command as a user does, except that this test has been told where cargo is; what it says of its work.
 fn cargo(arguments: &[&str]) -> String {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo).args(arguments).current_dir(root()).output().unwrap();
-    assert!(output.status.success(), "{arguments:?}: {}", crate::common::stderr(&output));
-    crate::common::stderr(&output)
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let output = Command::new(cargo).args(arguments).current_dir(checkout).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{arguments:?}: {said}");
+    said
 }
 
 /// Everything that cargo has compiled for these commands, and when.
