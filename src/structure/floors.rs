@@ -192,14 +192,14 @@ impl Floors {
     ) {
         let lanes = self.lanes_of(side as usize);
         let (of, out) = (&of[lanes.clone()], &mut out[lanes]);
-        if self.places[side as usize].are_of_floors() {
-            out[0] = of[0];
-            let neighbours = of.iter().zip(&of[1..]);
-            out[1..].iter_mut().zip(neighbours).for_each(|(out, (below, of))| *out = both(*of, *below));
-        } else {
+        if !self.places[side as usize].are_of_floors() {
             for (storey, (out, of)) in out.iter_mut().zip(of).enumerate() {
                 *out = both(*of, below(storey));
             }
+        } else if let ([lowest, upper @ ..], [floor, above @ ..]) = (out, of) {
+            *lowest = *floor;
+            let neighbours = above.iter().zip(of);
+            upper.iter_mut().zip(neighbours).for_each(|(out, (of, below))| *out = both(*of, *below));
         }
     }
 
