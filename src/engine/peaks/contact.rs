@@ -49,7 +49,7 @@ impl PeakFinder<'_> {
             *force = contact.present_force();
         }
         step.bound_forces(
-            &self.system,
+            self.system,
             &base.contacts,
             (step.planned.length, step.end_powers()),
             &mut work.peaks.strongest,
@@ -77,9 +77,9 @@ impl PeakFinder<'_> {
         step.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
         for p in 0..self.system.pairs.len() {
-            work.peaks.last_forces[p] = step.contact_at(&self.system, base, p, elapsed, &powers).present_force();
+            work.peaks.last_forces[p] = step.contact_at(self.system, base, p, elapsed, &powers).present_force();
         }
-        step.bound_forces(&self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
+        step.bound_forces(self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
         let part = ContactStep { base, step, inputs, length: elapsed, end };
         self.check_contact_step(&part, peaks, work);

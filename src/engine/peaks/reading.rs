@@ -142,7 +142,7 @@ impl PeakFinder<'_> {
         let pushes = closed.flat_map(|(p, pair)| pair.row.floors.into_iter().map(move |share| (p, share)));
         let pushed = pushes
             .filter(|(_, share)| share.lane == lane && share.push != 0.0)
-            .map(|(p, share)| share.push * step.contact_at(&self.system, base, p, time, &powers).present_force());
+            .map(|(p, share)| share.push * step.contact_at(self.system, base, p, time, &powers).present_force());
         floors.resisted[lane] + pushed.sum::<f64>()
     }
 
@@ -199,8 +199,8 @@ impl PeakFinder<'_> {
             v.copy_from_slice(&step.planned.v);
             pairs.copy_from_slice(&solution.end);
         } else {
-            let free = FreeMotion::of(&self.system, (base, inputs), series, work.buffers);
-            window.evaluate_with_pairs(&self.system, free, time, (q, v), &mut pairs);
+            let free = FreeMotion::of(self.system, (base, inputs), series, work.buffers);
+            window.evaluate_with_pairs(self.system, free, time, (q, v), &mut pairs);
         }
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
             (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);
