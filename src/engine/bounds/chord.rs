@@ -73,7 +73,7 @@ pub fn exceed_by_deviation(
 /// Writes upper bounds on the magnitudes of accelerations: of the larger one at both ends, with those by contact forces and
 /// the ground's.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn add_forces([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
+pub fn set_largest([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
     let count = largest.len();
     let [start, end, least, most] = [start, end, least, most].map(|vector| &vector[..count]);
     for i in 0..count {

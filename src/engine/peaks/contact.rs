@@ -129,18 +129,17 @@ impl PeakFinder<'_> {
             return;
         }
         let has_series = self.bound_by_series(part, work);
+        let room = &mut work.peaks.floors;
+        for side in Side::BOTH.into_iter().filter(|side| has_series && (are_links_open || is_open[*side as usize])) {
+            self.bound_building_by_series(side, part, room);
+        }
         for side in Side::BOTH.into_iter().filter(|side| is_open[*side as usize]) {
             if has_series {
-                self.bound_building_by_series(side, part, &mut work.peaks.floors);
                 self.find_excess(side, (part.length, true), peaks, &mut work.peaks.floors);
             }
             self.search_building(side, part, peaks, work);
         }
         if are_links_open {
-            if has_series {
-                let room = &mut work.peaks.floors;
-                Side::BOTH.into_iter().for_each(|side| self.bound_building_by_series(side, part, room));
-            }
             self.check_links(part, peaks, work);
         }
     }

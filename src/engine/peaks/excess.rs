@@ -3,7 +3,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::chord::{add_forces, add_larger, exceed_by_deviation, exceed_by_motion, exceed_by_push};
+use crate::engine::bounds::chord::{add_larger, exceed_by_deviation, exceed_by_motion, exceed_by_push, set_largest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakWork};
@@ -31,11 +31,23 @@ impl PeakFinder<'_> {
                 first..first + lanes.len()
             });
         let [of_displacements, of_drifts, of_accelerations] = of_peaks;
-        let FloorRoom { start, end, pushes: [first, last], least, most, largest, parting, strays, excess, .. } = room;
+        let FloorRoom {
+            start,
+            end,
+            pushes: [first, last],
+            least,
+            most,
+            largest,
+            largest_of_drifts,
+            strays,
+            excess,
+            ..
+        } = room;
         let [moved, drifted, pushed] = excess.each_mut().map(|excess| &mut excess[lanes.clone()]);
         let motion = [&start.u, &end.u, &start.v, &end.v, largest].map(|of| &of[lanes.clone()]);
         exceed_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
-        let motion = [&start.drift, &end.drift, &start.drifting, &end.drifting, parting].map(|of| &of[lanes.clone()]);
+        let motion =
+            [&start.drift, &end.drift, &start.drifting, &end.drifting, largest_of_drifts].map(|of| &of[lanes.clone()]);
         exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
         let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
         let [least, most, strays] = [least, most, strays].map(|of| &of[lanes.clone()]);
@@ -67,10 +79,10 @@ impl PeakFinder<'_> {
         let FloorRoom { start, end, least, most, largest, .. } = room;
         let ends = [&start.resisted, &end.resisted].map(|of| &of[lanes.clone()]);
         let forces = [least, most].map(|of| &of[lanes.clone()]);
-        add_forces(ends, forces, part.strongest_ground(), &mut largest[lanes.clone()]);
+        set_largest(ends, forces, part.strongest_ground(), &mut largest[lanes.clone()]);
         self.find_strays(b, part.length, room);
         for building in &self.system.structure.bodies[b].buildings {
-            self.system.structure.floors.bound_drifts(building.side, &room.largest, &mut room.parting);
+            self.system.structure.floors.bound_drifts(building.side, &room.largest, &mut room.largest_of_drifts);
         }
     }
 
@@ -105,26 +117,36 @@ impl PeakFinder<'_> {
     pub(super) fn bound_building_by_series(&self, side: Side, part: &ContactStep, room: &mut FloorRoom) {
         let floors = &self.system.structure.floors;
         let lanes = floors.lanes_with_foundation(side as usize);
-        let FloorRoom { start, end, pushes, strays, bends, partings, largest, parting, .. } = room;
+        let FloorRoom {
+            start,
+            end,
+            pushes,
+            strays,
+            accelerations,
+            drift_accelerations,
+            largest,
+            largest_of_drifts,
+            ..
+        } = room;
         let (ground, slope) = part.ground();
-        let at_ends = [(start, ground), (end, ground + slope * part.length)];
-        for ((at, ground), ((pushed, bend), parting)) in
-            at_ends.into_iter().zip(pushes.iter().zip(&mut *bends).zip(&mut *partings))
-        {
+        for (k, (at, ground)) in [(start, ground), (end, ground + slope * part.length)].into_iter().enumerate() {
             for lane in lanes.clone() {
-                bend[lane] = at.resisted[lane] + pushed[lane] - ground;
+                accelerations[k][lane] = at.resisted[lane] + pushes[k][lane] - ground;
             }
             // The ground does not turn.
             if let Some(rotation) = floors.lane_of(side, Place::Rotation) {
-                bend[rotation] += ground;
+                accelerations[k][rotation] += ground;
             }
-            floors.set_drifts(side, bend, parting);
+            floors.set_drifts(side, &accelerations[k], &mut drift_accelerations[k]);
         }
-        floors.bound_drifts(side, strays, parting);
+        floors.bound_drifts(side, strays, largest_of_drifts);
         let of_floors = floors.lanes_of(side as usize);
         largest[lanes.clone()].copy_from_slice(&strays[lanes.clone()]);
-        add_larger(bends.each_ref().map(|bend| &bend[lanes.clone()]), &mut largest[lanes.clone()]);
-        add_larger(partings.each_ref().map(|of| &of[of_floors.clone()]), &mut parting[of_floors.clone()]);
+        add_larger(accelerations.each_ref().map(|of| &of[lanes.clone()]), &mut largest[lanes.clone()]);
+        add_larger(
+            drift_accelerations.each_ref().map(|of| &of[of_floors.clone()]),
+            &mut largest_of_drifts[of_floors.clone()],
+        );
     }
 }
 

@@ -209,11 +209,12 @@ pub struct FloorRoom {
     pub most: Vec<f64>,
     /// B, and at last A, m/s2 (see `floors.rs`).
     pub largest: Vec<f64>,
-    /// Largest accelerations of the floors relative to those below, m/s2.
-    pub parting: Vec<f64>,
-    /// Accelerations of each floor relative to the ground, and to the floor below, at the start and at the end, m/s2.
-    pub bends: [Vec<f64>; 2],
-    pub partings: [Vec<f64>; 2],
+    /// Largest second derivatives of the drifts, m/s2.
+    pub largest_of_drifts: Vec<f64>,
+    /// Accelerations of each floor relative to the ground at the start and at the end, m/s2.
+    pub accelerations: [Vec<f64>; 2],
+    /// The same relative to the floor below, or on soil to what a foundation moves it by.
+    pub drift_accelerations: [Vec<f64>; 2],
     /// Bounds on the deviation of r from its chord, m/s2.
     pub strays: Vec<f64>,
     /// Bounds on the excess of each floor over its peaks of displacement, drift and acceleration; nothing is exceeded
@@ -235,9 +236,9 @@ impl FloorRoom {
             least: vector(),
             most: vector(),
             largest: vector(),
-            parting: vector(),
-            bends: [vector(), vector()],
-            partings: [vector(), vector()],
+            largest_of_drifts: vector(),
+            accelerations: [vector(), vector()],
+            drift_accelerations: [vector(), vector()],
             strays: vector(),
             excess: [vector(), vector(), vector()],
             modal: vector(),
