@@ -1,32 +1,17 @@
 //! `cargo fmu check`: nothing wrong in a good FMU, and every planted defect found.
 
 use crate::common::libraries::{exporting, functions, library};
-use crate::common::{Files, cargo_fmu, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use crate::common::{Files, cargo_fmu, checked, feup_fmu, files, findings, replace_once, stderr, stdout, write_fmu};
 use pounding::FmiVersion;
 use serde_json::Value;
-use std::path::Path;
 use tempfile::TempDir;
-
-/// Exit code and report of a check.
-fn check(fmu: &Path) -> (Option<i32>, Value) {
-    let output = cargo_fmu(&["check", fmu.to_str().unwrap(), "--json"]);
-    assert_eq!(stderr(&output), "");
-    (output.status.code(), serde_json::from_str(&stdout(&output)).unwrap())
-}
-
-/// The findings under one name.
-fn findings(report: &Value, name: &str) -> String {
-    let checks = report["checks"].as_array().unwrap().iter().filter(|check| check["name"] == name);
-    let findings = checks.flat_map(|check| check["findings"].as_array().unwrap());
-    findings.map(|finding| finding.as_str().unwrap().to_owned() + "\n").collect()
-}
 
 /// Plants a defect in a good FMU and requires the check of that name to find it and to say so.
 fn plant(change: impl Fn(Files) -> Files, name: &str, expected: &str) {
     let directory = TempDir::new().unwrap();
     let fmu = directory.path().join("defective.fmu");
     write_fmu(&fmu, &change(files(feup_fmu())));
-    let (code, report) = check(&fmu);
+    let (code, report) = checked(&fmu);
     assert_eq!((code, &report["valid"]), (Some(1), &Value::Bool(false)), "{report:#}");
     let found = findings(&report, name);
     assert!(found.contains(expected), "{name} does not say {expected:?}: {report:#}");
@@ -65,7 +50,7 @@ fn exchange(text: &str, section: &str, element: &str) -> String {
 
 #[test]
 fn a_good_fmu_is_in_order_and_has_run() {
-    let (code, report) = check(feup_fmu());
+    let (code, report) = checked(feup_fmu());
     assert_eq!(code, Some(0), "{report:#}");
     assert_eq!(report["valid"], true);
     assert_eq!(report["run"]["stop"], 20.0);
@@ -234,7 +219,7 @@ fn files_that_are_no_fmu() {
     let directory = TempDir::new().unwrap();
     let file = directory.path().join("file.fmu");
     let refused = |expected: &str| {
-        let (code, report) = check(&file);
+        let (code, report) = checked(&file);
         assert_eq!(code, Some(1));
         let said = findings(&report, "archive") + &findings(&report, "description");
         assert!(said.contains(expected), "no {expected:?}: {report:#}");

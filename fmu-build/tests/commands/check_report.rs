@@ -1,15 +1,9 @@
 //! `cargo fmu check --json`: the shape that `docs/check.schema.json` promises to scripts, whatever there is to report.
 
-use crate::common::{cargo_fmu, changed_description, feup_fmu, files, replace_once, root, stderr, stdout, write_fmu};
+use crate::common::{changed_description, checked, feup_fmu, files, replace_once, root, write_fmu};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
-
-fn report(fmu: &Path) -> (Option<i32>, Value) {
-    let output = cargo_fmu(&["check", fmu.to_str().unwrap(), "--json"]);
-    assert_eq!(stderr(&output), "");
-    (output.status.code(), serde_json::from_str(&stdout(&output)).unwrap())
-}
 
 /// As much of JSON Schema as the schema uses; a key that it does not describe is wrong too.
 fn violations(schema: &Value, value: &Value, place: &str) -> Vec<String> {
@@ -68,7 +62,7 @@ fn the_json_is_as_the_schema_says() {
     for (fmu, expected, checks) in
         [(feup_fmu(), 0, &all[..]), (&bad, 1, &all), (&text, 1, &["archive"]), (Path::new("none.fmu"), 1, &["archive"])]
     {
-        let (code, report) = report(fmu);
+        let (code, report) = checked(fmu);
         assert_eq!(code, Some(expected), "{report:#}");
         assert_eq!(violations(&schema, &report, "report"), [""; 0], "{report:#}");
         assert_eq!(names(&report), checks, "{report:#}");
@@ -80,7 +74,7 @@ fn the_json_is_as_the_schema_says() {
 
 #[test]
 fn the_figures_of_the_run_are_those_at_its_end() {
-    let (_, report) = report(feup_fmu());
+    let (_, report) = checked(feup_fmu());
     let run = &report["run"];
     assert_eq!((&run["start"], &run["stop"], &run["step"]), (&0.0.into(), &20.0.into(), &0.01.into()));
     assert_eq!(run["values"]["left.mass[1]"], 3.65);
@@ -106,7 +100,7 @@ fn what_is_written_and_what_the_library_does_is_reported_at_once() {
     });
     files.push(("readme.txt".into(), Vec::new()));
     write_fmu(&fmu, &files);
-    let (code, report) = report(&fmu);
+    let (code, report) = checked(&fmu);
     assert_eq!(code, Some(1));
     let said = report["checks"].to_string();
     for expected in [

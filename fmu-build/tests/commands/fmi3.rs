@@ -2,7 +2,8 @@
 
 use crate::common::libraries::{exporting, functions, library};
 use crate::common::{
-    Files, cargo_fmu, cargo_fmu_in, feup, feup_fmu, feup_fmu_of, files, replace_once, root, stderr, stdout, write_fmu,
+    Files, cargo_fmu, cargo_fmu_in, checked, feup, feup_fmu, feup_fmu_of, files, findings, replace_once, root, stderr,
+    stdout, write_fmu,
 };
 use pounding::FmiVersion;
 use serde_json::Value;
@@ -16,17 +17,6 @@ fn fmi3_fmu() -> &'static Path {
     feup_fmu_of(FmiVersion::V3)
 }
 
-fn check(fmu: &Path) -> (Option<i32>, Value) {
-    let output = cargo_fmu(&["check", fmu.to_str().unwrap(), "--json"]);
-    assert_eq!(stderr(&output), "");
-    (output.status.code(), serde_json::from_str(&stdout(&output)).unwrap())
-}
-
-fn findings(report: &Value, name: &str) -> String {
-    let checks = report["checks"].as_array().unwrap().iter().filter(|check| check["name"] == name);
-    checks.flat_map(|check| check["findings"].as_array().unwrap()).map(|finding| finding.to_string() + "\n").collect()
-}
-
 /// Plants a defect in a good FMU and requires the check of that name to say so.
 fn plant(change: impl Fn(&mut Files), name: &str, expected: &str) {
     let directory = TempDir::new().unwrap();
@@ -34,7 +24,7 @@ fn plant(change: impl Fn(&mut Files), name: &str, expected: &str) {
     let mut files = files(fmi3_fmu());
     change(&mut files);
     write_fmu(&fmu, &files);
-    let (code, report) = check(&fmu);
+    let (code, report) = checked(&fmu);
     assert_eq!((code, &report["valid"]), (Some(1), &Value::Bool(false)), "{report:#}");
     assert!(findings(&report, name).contains(expected), "{name} does not say {expected:?}: {report:#}");
 }
@@ -46,9 +36,9 @@ fn change(files: &mut Files, place: usize, old: &str, new: &str) {
 
 #[test]
 fn a_good_fmu_is_in_order_and_the_runs_of_both_versions_have_the_same_bits() {
-    let (code, report) = check(fmi3_fmu());
+    let (code, report) = checked(fmi3_fmu());
     assert_eq!(code, Some(0), "{report:#}");
-    let (_, older) = check(feup_fmu());
+    let (_, older) = checked(feup_fmu());
     let names = |report: &Value| {
         report["checks"].as_array().unwrap().iter().map(|check| check["name"].clone()).collect::<Vec<_>>()
     };
@@ -134,11 +124,11 @@ fn platforms_go_by_both_names_and_arm_needs_no_trick() {
 fn defects_of_the_description() {
     let lint = "description lint";
     let in_description = |old: &'static str, new: &'static str| move |files: &mut Files| change(files, 0, old, new);
-    plant(in_description("name=\"time\"", "clocks=\"3\" name=\"time\""), lint, "no attribute \\\"clocks\\\"");
+    plant(in_description("name=\"time\"", "clocks=\"3\" name=\"time\""), lint, "no attribute \"clocks\"");
     plant(in_description("fmiVersion=\"3.0\"", "fmiVersion=\"3.1\""), lint, "expected exactly");
     plant(in_description("<InitialUnknown ", "<Output "), "description", "initial unknowns");
     plant(in_description("</ModelVariables>", ""), "description", "ModelVariables");
-    plant(in_description("causality=\"independent\"", "causality=\"local\""), lint, "expected \\\"time\\\" alone");
+    plant(in_description("causality=\"independent\"", "causality=\"local\""), lint, "expected \"time\" alone");
     plant(in_description("start=\"3.65\"", "start=\"3.66\""), "start values", "left.mass[1]: start is");
     plant(in_description("instantiationToken=\"{", "instantiationToken=\"{0"), "start values", "oken");
     plant(|files| change(files, 2, "gap = 0.005", "gap = 0.004"), "start values", "oken");
@@ -172,7 +162,7 @@ fn fmus_of_one_version_are_merged() {
     let said = merge(here);
     assert!(said.status.success(), "{}", stderr(&said));
     assert!(stdout(&said).contains(&format!("aarch64-linux, {}", HOST[1])), "{}", stdout(&said));
-    let (code, report) = check(&directory.path().join("both.fmu"));
+    let (code, report) = checked(&directory.path().join("both.fmu"));
     assert_eq!(code, Some(0), "{report:#}");
 
     std::fs::remove_file(directory.path().join("both.fmu")).unwrap();

@@ -3,6 +3,7 @@
 pub mod libraries;
 
 use pounding::FmiVersion;
+use serde_json::Value;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -18,6 +19,20 @@ pub fn root() -> &'static Path {
 /// Runs `cargo fmu` in a directory, its output in a pipe.
 pub fn cargo_fmu_in(directory: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_cargo-fmu")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+/// Exit code and report of `cargo fmu check --json`, which says nothing else.
+pub fn checked(fmu: &Path) -> (Option<i32>, Value) {
+    let output = cargo_fmu(&["check", fmu.to_str().unwrap(), "--json"]);
+    assert_eq!(stderr(&output), "");
+    (output.status.code(), serde_json::from_str(&stdout(&output)).unwrap())
+}
+
+/// What a report says under the name of one check, a line each.
+pub fn findings(report: &Value, name: &str) -> String {
+    let checks = report["checks"].as_array().unwrap().iter().filter(|check| check["name"] == name);
+    let findings = checks.flat_map(|check| check["findings"].as_array().unwrap());
+    findings.map(|finding| finding.as_str().unwrap().to_owned() + "\n").collect()
 }
 
 /// Runs `cargo fmu` in the checkout.
