@@ -56,6 +56,12 @@ def says(page, pattern, seconds=20, at="#happened"):
     raise AssertionError(f"{at} says {text!r}, expected {pattern!r}")
 
 
+def says_the_run(page, gap):
+    """Waits until the page tells of the default scene's run with a gap in mm: a slow machine computes those on the way."""
+    impacts, force = KNOWN[gap]
+    return says(page, rf"^{impacts} impacts in .*hardest: {force}\sN")
+
+
 def impacts_of(page):
     """How many impacts the page says that there are."""
     return int(re.match(r"(\d+) impact", page.locator("#happened").inner_text())[1])
