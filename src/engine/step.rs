@@ -179,11 +179,11 @@ impl Step {
         };
         let left = length - elapsed;
         let flying = system.structure.in_flight();
-        let reach = flying.fastest * left;
-        if !(flying.is_classical() && left > 0.0 && reach <= NEARLY_OVER) {
+        let angle = flying.fastest * left;
+        if !(flying.is_classical() && left > 0.0 && angle <= NEARLY_OVER) {
             return false;
         }
-        let Some(order) = exact_order(reach) else { return false };
+        let Some(order) = exact_order(angle) else { return false };
         let end = if self.kind == StepKind::Deferred {
             system.fly_in(base, length, work);
             (&work.q[..], &work.v[..])

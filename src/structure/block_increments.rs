@@ -8,7 +8,7 @@ use super::propagator::ModeIncrement;
 use crate::numerics::polynomial::each;
 
 /// Largest (rate) x (time) over which the series is summed.
-const SERIES_REACH: f64 = 0.5;
+const SERIES_ANGLE: f64 = 0.5;
 
 /// Terms of the series of the response to a sloped load, from t^3 on: the last is below 1e-18 of the first.
 const TERMS: usize = 12;
@@ -83,10 +83,10 @@ impl ModeIncrements {
     }
 }
 
-/// How often an interval is halved for a block of modes whose quickest rate times the interval is `reach`; `None` where
+/// How often an interval is halved for a block of modes whose quickest rate times the interval is `angle`; `None` where
 /// that would be too often.
-pub(super) fn halvings(reach: f64) -> Option<i32> {
-    (0..=MOST_DOUBLINGS).find(|halvings| libm::ldexp(reach, -halvings) <= SERIES_REACH)
+pub(super) fn halvings(angle: f64) -> Option<i32> {
+    (0..=MOST_DOUBLINGS).find(|halvings| libm::ldexp(angle, -halvings) <= SERIES_ANGLE)
 }
 
 /// The increments of modes of squared frequencies w^2, 1/s2, and damping, 1/s, over an interval of `h` seconds that is
@@ -175,8 +175,8 @@ mod tests {
         for h in [1e-9, 1e-4, 3.3e-3, 0.01, 0.04] {
             for four in modes.windows(LANES) {
                 let (omega2, damping) = (each(|i| four[i].0 * four[i].0), each(|i| four[i].1));
-                let reach = four.iter().fold(0.0, |most: f64, (w, c)| most.max(*w).max(*c)) * h;
-                let got = increments((&omega2, &damping), h, halvings(reach).unwrap());
+                let angle = four.iter().fold(0.0, |most: f64, (w, c)| most.max(*w).max(*c)) * h;
+                let got = increments((&omega2, &damping), h, halvings(angle).unwrap());
                 for (i, (w, c)) in four.iter().enumerate() {
                     let exact = ModeIncrement::new(*w, *c, h);
                     let near = |got: f64, exact: f64, unit: f64| {

@@ -17,13 +17,13 @@ use crate::numerics::quadrature::TWELVE_POINTS;
 use nalgebra::{DMatrix, RowDVector};
 
 /// (Fastest rate) x (length) of the time whose forms come from power series.
-const REACH: f64 = 0.5;
+const SERIES_ANGLE: f64 = 0.5;
 
 /// The same of the rule of 12 points, as in `flight_work.rs`, and terms of the series at its points: 3^40 / 40! is 1e-29.
-const POINTS_REACH: f64 = 3.0;
+const POINTS_ANGLE: f64 = 3.0;
 const POINTS_TERMS: u32 = 40;
 
-/// Terms of these series: 2^24 REACH^24 / 24! is 2e-24.
+/// Terms of these series: 2^24 SERIES_ANGLE^24 / 24! is 2e-24.
 const TERMS: u32 = 24;
 
 /// A of one body.
@@ -58,13 +58,13 @@ impl Rates<'_> {
     }
 
     /// Number of doublings from a time within reach of a series or rule to a length, s.
-    fn doublings(&self, length: f64, reach: f64) -> i32 {
-        libm::log2(self.fastest * length / reach).ceil().clamp(0.0, 1000.0) as i32
+    fn doublings(&self, length: f64, angle: f64) -> i32 {
+        libm::log2(self.fastest * length / angle).ceil().clamp(0.0, 1000.0) as i32
     }
 
     /// W of a damping matrix over a length, s, over z = P y instead of z.
     pub(super) fn form_over(&self, damping: &DMatrix<f64>, length: f64, over: Option<&DMatrix<f64>>) -> Form {
-        let doublings = self.doublings(length, REACH);
+        let doublings = self.doublings(length, SERIES_ANGLE);
         let h = libm::ldexp(length, -doublings);
         let (mut form, mut onward) = (self.form(damping, h), self.transition(h));
         for _ in 0..doublings {
@@ -82,7 +82,7 @@ impl Rates<'_> {
         length: f64,
         over: Option<&DMatrix<f64>>,
     ) -> Option<Squares> {
-        let doublings = self.doublings(length, POINTS_REACH);
+        let doublings = self.doublings(length, POINTS_ANGLE);
         if (TWELVE_POINTS.len() << doublings.min(16)) * 2 > self.size() {
             return None;
         }
@@ -100,7 +100,7 @@ impl Rates<'_> {
 
     /// The rows of the work of the ground motion over a length, s.
     pub(super) fn input_over(&self, length: f64) -> [RowDVector<f64>; 2] {
-        let doublings = self.doublings(length, REACH);
+        let doublings = self.doublings(length, SERIES_ANGLE);
         let mut h = libm::ldexp(length, -doublings);
         let ([mut held, mut rising], mut onward) = (self.input(h), self.transition(h));
         for _ in 0..doublings {
@@ -114,7 +114,7 @@ impl Rates<'_> {
 
     /// T over a length, s.
     fn transition_over(&self, length: f64) -> DMatrix<f64> {
-        let doublings = self.doublings(length, REACH);
+        let doublings = self.doublings(length, SERIES_ANGLE);
         let mut onward = self.transition(libm::ldexp(length, -doublings));
         for _ in 0..doublings {
             onward = &onward * &onward;

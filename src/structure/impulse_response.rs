@@ -82,11 +82,11 @@ impl ImpulseResponse {
         if let Some(longest) = self.longest {
             return (time <= longest).then_some(RESPONSE_POWERS);
         }
-        let reach = self.fastest * time;
+        let angle = self.fastest * time;
         let (mut term, mut k) = (1.0, 1);
         while term > remainder {
             k += 1;
-            term *= reach / k as f64;
+            term *= angle / k as f64;
         }
         (k < RESPONSE_POWERS).then_some(k + 1)
     }

@@ -34,11 +34,11 @@ pub struct ModeIncrement {
 }
 
 /// Largest w h (and c h) over which a power series in h is summed directly.
-const SERIES_REACH: f64 = 0.5;
+const SERIES_ANGLE: f64 = 0.5;
 
 /// How often an interval `h`, s, is halved until a series reaches over it, and its length then.
-fn halve(reach: f64, h: f64) -> (i32, f64) {
-    let halvings = (libm::log2(reach / SERIES_REACH).ceil().max(0.0) as i32).min(1000);
+fn halve(angle: f64, h: f64) -> (i32, f64) {
+    let halvings = (libm::log2(angle / SERIES_ANGLE).ceil().max(0.0) as i32).min(1000);
     (halvings, libm::ldexp(h, -halvings))
 }
 
@@ -49,14 +49,14 @@ impl ModeIncrement {
     /// take the closed form of an underdamped oscillator. Heavily damped modes double a short interval instead,
     /// which needs no distinction between under-, over- and critically damped and is stable as they decay.
     pub fn new(omega: f64, c: f64, h: f64) -> ModeIncrement {
-        let reach = omega.max(c) * h;
-        if reach <= SERIES_REACH {
+        let angle = omega.max(c) * h;
+        if angle <= SERIES_ANGLE {
             return Self::series(omega, c, h);
         }
         if c < 1.9 * omega {
             return Self::underdamped(omega, c, h);
         }
-        let (doublings, mut short) = halve(reach, h);
+        let (doublings, mut short) = halve(angle, h);
         let mut increment = Self::series(omega, c, short);
         for _ in 0..doublings {
             increment = increment.twice(short);

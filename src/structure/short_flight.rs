@@ -7,14 +7,14 @@ use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
 /// Up to this (fastest rate) x (time) a series of this order is exact to rounding: flights between instants that are
 /// the same but for rounding.
-const TINY_REACH: f64 = 1e-6;
-const TINY_REACH_ORDER: usize = 4;
+const TINY_ANGLE: f64 = 1e-6;
+const TINY_ANGLE_ORDER: usize = 4;
 
-/// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it
+/// Order at which the series of a flight over `angle` = (fastest rate) x (time) is exact to rounding; `None` where it
 /// is too long for one.
 #[inline]
-pub fn exact_order(reach: f64) -> Option<usize> {
-    if reach <= TINY_REACH { Some(TINY_REACH_ORDER) } else { flight_order(reach, EXACT) }
+pub fn exact_order(angle: f64) -> Option<usize> {
+    if angle <= TINY_ANGLE { Some(TINY_ANGLE_ORDER) } else { flight_order(angle, EXACT) }
 }
 
 /// Flies `q`, `v` over `h`, s, under a modal load and its slope, where damping couples no modes, by a series of at least
@@ -28,9 +28,9 @@ pub fn fly_in_one_series(
     (h, order): (f64, usize),
     end: (&mut [f64], &mut [f64]),
 ) {
-    if order <= TINY_REACH_ORDER {
+    if order <= TINY_ANGLE_ORDER {
         // Terms whose number is known stay in registers.
-        fly::<{ TINY_REACH_ORDER + 1 }>(structure, motion, loads, (h, TINY_REACH_ORDER), end);
+        fly::<{ TINY_ANGLE_ORDER + 1 }>(structure, motion, loads, (h, TINY_ANGLE_ORDER), end);
     } else {
         fly::<MAX_TERMS>(structure, motion, loads, (h, order), end);
     }
@@ -105,10 +105,10 @@ mod tests {
     use crate::structure::MotionSeries;
 
     #[test]
-    fn the_order_over_a_tiny_reach_is_that_over_any_other() {
-        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * TINY_REACH, TINY_REACH, 1.001 * TINY_REACH, 1e-3, 0.7, 2.0, 2.1]
+    fn the_order_over_a_tiny_angle_is_that_over_any_other() {
+        for angle in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * TINY_ANGLE, TINY_ANGLE, 1.001 * TINY_ANGLE, 1e-3, 0.7, 2.0, 2.1]
         {
-            assert_eq!(exact_order(reach), flight_order(reach, EXACT), "{reach}");
+            assert_eq!(exact_order(angle), flight_order(angle, EXACT), "{angle}");
         }
     }
 
@@ -125,15 +125,15 @@ mod tests {
         let mut series = MotionSeries::new(structure.lanes, MAX_TERMS - 1);
         let mut powers = Powers::default();
         let [mut q0, mut v0, mut q1, mut v1] = [(); 4].map(|()| vec![f64::NAN; structure.lanes]);
-        for reach in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
-            let h = reach / structure.fastest;
+        for angle in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
+            let h = angle / structure.fastest;
             let order = exact_order(structure.fastest * h).unwrap();
             series.expand_flight(&structure, (&q, &v), (&load, &slope), (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
             fly_in_one_series(&structure, (&q, &v), (&load, &slope), (h, order), (&mut q1, &mut v1));
             let bits = |q: &[f64], v: &[f64]| q.iter().chain(v).map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{reach}");
+            assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{angle}");
         }
     }
 }

@@ -13,10 +13,10 @@ use crate::numerics::polynomial::{MAX_ORDER, larger};
 use crate::structure::{EXACT, LANES, Lane, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
-const REACH: f64 = 1.5;
+const SERIES_ANGLE: f64 = 1.5;
 
 /// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
-const LONG: f64 = 64.0 * REACH;
+const LONG: f64 = 64.0 * SERIES_ANGLE;
 
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;
@@ -40,9 +40,9 @@ impl Piece {
     }
 
     /// The number of leaves of a piece that reaches so far, in units of 1 / (fastest rate), and the times at their ends.
-    fn leaves(self, reach: f64) -> (usize, [f64; LEAVES + 1]) {
+    fn leaves(self, angle: f64) -> (usize, [f64; LEAVES + 1]) {
         let mut count = 1;
-        while count < LEAVES && reach > count as f64 * REACH {
+        while count < LEAVES && angle > count as f64 * SERIES_ANGLE {
             count *= 2;
         }
         let mut times = [self.to; LEAVES + 1];
@@ -104,11 +104,11 @@ impl PeakFinder<'_> {
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at ends of leaves first: then few
     /// leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let reach = self.system.structure.in_flight().fastest * (piece.to - piece.from);
+        let angle = self.system.structure.in_flight().fastest * (piece.to - piece.from);
         if piece.from >= until {
             return;
         }
-        if reach > LEAVES as f64 * REACH && piece.halvings > 0 {
+        if angle > LEAVES as f64 * SERIES_ANGLE && piece.halvings > 0 {
             self.clear_by_chords(flight, piece, until, suspects, work);
             if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
@@ -116,7 +116,7 @@ impl PeakFinder<'_> {
             open_again(suspects, piece.halvings);
             return;
         }
-        let (count, times) = piece.leaves(reach);
+        let (count, times) = piece.leaves(angle);
         let asked = times[..count].partition_point(|start| *start < until);
         self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work);
         for k in 0..asked {

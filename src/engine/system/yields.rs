@@ -22,8 +22,8 @@ impl System {
         drift: &mut Coefficients,
     ) {
         let of = &self.storeys[i];
-        let reach = fastest * series.scale;
-        let rounding = 8.0 * f64::EPSILON * reach * reach * (size + of.limit);
+        let angle = fastest * series.scale;
+        let rounding = 8.0 * f64::EPSILON * angle * angle * (size + of.limit);
         drift[2] = if drift[2].abs() <= rounding { 0.0 } else { drift[2] };
     }
 

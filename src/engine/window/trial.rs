@@ -22,7 +22,7 @@ const BEFORE_RELEASE: f64 = 0.8;
 const TOO_STIFF: f64 = 200.0;
 
 /// Largest (fastest rate) x (length) of a window where motion and kernels are power series.
-const MODES_REACH: f64 = 1.0;
+const MODES_ANGLE: f64 = 1.0;
 
 /// Largest share of a penetration by which it may change over a window that passes as one in which little changes, and
 /// the factor on lengths for which fewer nodes do then.
@@ -82,7 +82,7 @@ impl Trial {
 impl Windows {
     /// Length of the longest window for which terms of the motion and kernels are good, s.
     pub fn longest(&self, system: &System) -> f64 {
-        system.free_rows.as_ref().map_or(MODES_REACH / system.structure.fastest, |rows| rows.length)
+        system.free_rows.as_ref().map_or(MODES_ANGLE / system.structure.fastest, |rows| rows.length)
     }
 
     /// The window to try first within the `remaining` seconds; `None` where numbers of a contact overflow or its

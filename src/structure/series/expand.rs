@@ -25,16 +25,16 @@ pub(crate) const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
 /// Relative remainder below which a truncated series is exact to rounding.
 pub const EXACT: f64 = 1e-19;
 
-/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`, which is
-/// estimated by reach^n / n!; `None` where the interval is too long for a series.
-pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
-    if reach > 2.0 {
+/// Order at which the flight series over an `angle` = (fastest rate) x (time), rad, is good to a relative `remainder`, which is
+/// estimated by angle^n / n!; `None` where the interval is too long for a series.
+pub fn flight_order(angle: f64, remainder: f64) -> Option<usize> {
+    if angle > 2.0 {
         return None;
     }
     let (mut term, mut order) = (1.0, 0);
     while term > remainder || order < 4 {
         order += 1;
-        term *= reach / order as f64;
+        term *= angle / order as f64;
     }
     Some(order)
 }
