@@ -18,7 +18,7 @@ use nalgebra::{Matrix4, Vector4};
 
 /// Largest (w or c) x (length) over which the rule of 12 points integrates the work to rounding: its error is
 /// 9e-39 (2 x 3)^24 = 4e-20 of the largest power.
-const SERIES_ANGLE: f64 = 3.0;
+const RULE_ANGLE: f64 = 3.0;
 
 /// The work over a flight of one length, for all modes.
 #[derive(Clone, Debug)]
@@ -243,7 +243,7 @@ fn both(form: &Matrix4<f64>, j: usize, k: usize) -> f64 {
 
 /// The forms of one mode over a flight, of the work of the ground motion and of damping.
 fn forms(omega: f64, c: f64, participation: f64, length: f64) -> [Matrix4<f64>; 2] {
-    let doublings = libm::log2(omega.max(c) * length / SERIES_ANGLE).ceil().clamp(0.0, 1000.0) as i32;
+    let doublings = libm::log2(omega.max(c) * length / RULE_ANGLE).ceil().clamp(0.0, 1000.0) as i32;
     let mut h = libm::ldexp(length, -doublings);
     let mut forms = [Matrix4::zeros(); 2];
     for (x, weight) in TWELVE_POINTS {
