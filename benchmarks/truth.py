@@ -36,8 +36,8 @@ def of(problem, folder: Path):
     return read(stem, sum(problem.floors))
 
 
-def scene_input(scene, folder):
-    convert = [sys.executable, REFERENCE / "scene_to_input.py", scene.name, "--step", str(OUTPUT_STEP)]
+def scene_input(scene, folder, step=OUTPUT_STEP):
+    convert = [sys.executable, REFERENCE / "scene_to_input.py", scene.name, "--step", str(step)]
     return subprocess.run(convert, cwd=folder, text=True, check=True, capture_output=True).stdout.replace(
         "record ", f"record {folder}/", 1
     )

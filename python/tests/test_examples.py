@@ -80,10 +80,11 @@ def test_short_programs(program):
 KOBE = os.environ.get("KOBE_RECORD")
 
 
-def test_the_pages_about_the_paper_are_what_their_command_writes():
-    command = [sys.executable, "examples/paper/all.py", "--check", *(["--kobe", KOBE] if KOBE else [])]
+def test_the_pages_about_the_paper_are_what_their_command_writes(tmp_path):
+    command = [sys.executable, "examples/paper/all.py", "--check", "--pictures", tmp_path, *(["--kobe", KOBE] if KOBE else [])]
     check = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stderr
+    assert list(tmp_path.glob("*.png"))
     assert "docs/paper.md: compared free impacts," in check.stdout
     assert "docs/validation.md: compared closed forms," in check.stdout
     assert ("heights under Kobe" in check.stdout) == bool(KOBE)
