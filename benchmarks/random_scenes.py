@@ -83,9 +83,8 @@ def main():
 
 def row(title, found):
     judged = [one for one in found if not one.complaint]
-    worst = [max(one.errors[of] for one in judged) for of in ALLOWED]
-    middle = [float(np.median([one.errors[of] for one in judged])) for of in ALLOWED]
-    numbers = " | ".join(f"{number:.1e}" for pair in zip(middle, worst, strict=True) for number in pair)
+    errors = [[one.errors[of] for one in judged] or [np.nan] for of in ALLOWED]
+    numbers = " | ".join(f"{np.median(of):.1e} | {np.max(of):.1e}" for of in errors)
     return f"| {title} | {len(judged)} | {sum(one.impacts for one in judged)} | {numbers} |"
 
 
