@@ -59,7 +59,8 @@ class Frame:
         if yields:
             above = np.cumsum(self.mass[::-1])[::-1]
             forces = above * 10 ** rng.uniform(-0.7, 1.0, len(above))
-            lines += [f"yield_force = {numbers(forces)}", f"post_yield_ratio = {number(rng.choice([0.0, rng.uniform(0, 0.5)]))}"]
+            ratio = rng.choice([0.0, rng.uniform(0, 0.5)])
+            lines += [f"yield_force = {numbers(forces)}", f"post_yield_ratio = {number(ratio)}"]
         if leans:
             # A tenth at most of the weight that would make a storey unstable.
             loads = self.stiffness * HEIGHT / len(self.mass) * rng.uniform(0.0, 0.1)
@@ -70,9 +71,10 @@ class Frame:
         ratio = rng.choice([0.0, rng.uniform(0.005, 0.1)])
         kinds = [f"{{ ratio = {number(ratio)} }}"]
         if len(self.mass) > 1:
+            dashpots = rng.uniform(0.0, 0.01, len(self.mass)) * np.sqrt(self.stiffness * self.mass)
             kinds += [
                 f"{{ rayleigh = {{ ratio = {number(ratio)}, modes = [1, 2] }} }}",
-                f"{{ dashpots = {numbers(rng.uniform(0.0, 0.01, len(self.mass)) * np.sqrt(self.stiffness * self.mass))} }}",
+                f"{{ dashpots = {numbers(dashpots)} }}",
             ]
         return f"damping = {rng.choice(kinds)}"
 
@@ -80,7 +82,8 @@ class Frame:
         mass, stiffness = self.mass.sum(), self.stiffness[0]
         arm = HEIGHT * len(self.mass)
         springs = {"sway": (mass, stiffness), "rocking": (mass * HEIGHT**2, stiffness * arm**2)}
-        lines = [f"[{side}.foundation]", f"mass = {number(mass * rng.uniform(0.3, 2.0))}", f"inertia = {number(mass * rng.uniform(1.0, 9.0))}"]
+        lines = [f"[{side}.foundation]", f"mass = {number(mass * rng.uniform(0.3, 2.0))}"]
+        lines.append(f"inertia = {number(mass * rng.uniform(1.0, 9.0))}")
         for way, (moved, spring) in springs.items():
             spring = spring * 10 ** rng.uniform(0.5, 1.5)
             dashpot = rng.uniform(0.0, 0.5) * math.sqrt(spring * moved)
@@ -107,7 +110,8 @@ def uneven(rng, frames):
         [f"left_floor = {rng.integers(1, lowest + 1)}", f"right_storey = {rng.integers(1, right + 1)}"],
         [f"right_floor = {rng.integers(1, right + 1)}", 'wall = "right"'],
     ]
-    places[1] += [f"right_position = {number(rng.uniform(0.1, 0.9))}", f'column_shape = "{rng.choice(["fixed", "straight"])}"']
+    places[1] += [f"right_position = {number(rng.uniform(0.1, 0.9))}"]
+    places[1] += [f'column_shape = "{rng.choice(["fixed", "straight"])}"']
     return [line for place in places for line in contact(rng, frames, place)]
 
 
@@ -128,7 +132,8 @@ def link(rng, frames):
     """A spring and a dashpot between the roof of the lower frame and the floor beside it."""
     floor, softest = min(len(frame.mass) for frame in frames), min(frame.stiffness.min() for frame in frames)
     lines = ["[[link]]", f"left_floor = {floor}", f"right_floor = {floor}"]
-    lines += [f"stiffness = {number(softest * rng.uniform(0.05, 1.0))}", f"dashpot = {number(softest * rng.uniform(0.0, 0.01))}"]
+    lines.append(f"stiffness = {number(softest * rng.uniform(0.05, 1.0))}")
+    lines.append(f"dashpot = {number(softest * rng.uniform(0.0, 0.01))}")
     if rng.random() < 0.5:
         lines.append(f"slip_force = {number(softest * 10 ** rng.uniform(-4.0, -2.0))}")
     return lines

@@ -81,7 +81,8 @@ KOBE = os.environ.get("KOBE_RECORD")
 
 
 def test_the_pages_about_the_paper_are_what_their_command_writes(tmp_path):
-    command = [sys.executable, "examples/paper/all.py", "--check", "--pictures", tmp_path, *(["--kobe", KOBE] if KOBE else [])]
+    command = [sys.executable, "examples/paper/all.py", "--check", "--pictures", tmp_path]
+    command += ["--kobe", KOBE] if KOBE else []
     check = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stderr
     assert list(tmp_path.glob("*.png"))
