@@ -49,6 +49,7 @@ class Comparison:
     errors: dict
     impacts: int
     complaint: str = ""
+    is_judged: bool = True
 
 
 def main():
@@ -59,7 +60,7 @@ def main():
     WORK.mkdir(parents=True, exist_ok=True)
     programs = compiled.build_engine(program="simulate"), truth.program(WORK)
     is_page = (options.scenes, options.seed) == (SCENES, SEED)
-    lines, bad, progress = [], [], Progress(len(random_frames.KINDS) * options.scenes)
+    lines, told, progress = [], [], Progress(len(random_frames.KINDS) * options.scenes)
     for kind, title in random_frames.KINDS.items():
         progress.begin(title)
         found = []
@@ -70,15 +71,15 @@ def main():
                 progress.end()
                 progress.show(one.name)
         lines.append(row(title, found))
-        bad += [one for one in found if one.complaint or any(one.errors[of] > ALLOWED[of] for of in one.errors)]
+        told += [one for one in found if one.complaint or any(one.errors[of] > ALLOWED[of] for of in one.errors)]
     progress.clear()
     text = HEADING.format(count=options.scenes * len(random_frames.KINDS)) + "\n".join(lines) + "\n"
     if is_page:
         (ROOT / "docs/benchmark/random_scenes.md").write_text(text)
     print(text)
-    for one in bad:
+    for one in told:
         print(f"{WORK.relative_to(ROOT)}/{one.name}.toml: {one.complaint or one.errors}", file=sys.stderr)
-    sys.exit(1 if bad else 0)
+    sys.exit(1 if any(one.is_judged for one in told) else 0)
 
 
 def row(title, found):
@@ -104,7 +105,7 @@ def compare(programs, kind, seed):
     if ours.returncode != 0:
         return Comparison(name, {}, 0, ours.stderr.strip())
     if complaint := solve_truth(reference, scene, stem):
-        return Comparison(name, {}, 0, f"the reference does not agree with itself: {complaint}")
+        return Comparison(name, {}, 0, f"not judged, the reference fails: {complaint}", is_judged=False)
     return judge(name, *(read(f"{stem}.{of}.csv") for of in ("rows", "displacements", "hits", "impacts")))
 
 
@@ -184,11 +185,13 @@ HEADING = """# Random scenes beside quadruple precision
 
 {count} scenes from a fixed seed: two frames of one to four storeys, 1 to 1000 t and 0.5 to 5 Hz, with any damping and any law
 at gaps from 0.5 to 20 mm, in 3 s of random shaking; displacements of all floors every 0.01 s, beginnings
-and impulses of all impacts beside those of the program of [tests/reference](../../tests/reference/README.md), which shares neither
-method nor code with the engine. No peak is below what that program has read. Errors are per unit of sensitivity (how much a change in the last digit of the record
-has grown by then): of displacements relative to the largest; of the beginning of an impact what the floors approach each other
-by in the time that it is off, relative to the largest displacement; of impulses relative to the largest. Made by
-`benchmarks/random_scenes.py`.
+and impulses of all impacts beside those of the program of [tests/reference](../../tests/reference/README.md), which
+shares neither method nor code with the engine. No peak is below what that program has read. The few scenes of which it does
+not find an event itself are not counted.
+
+Errors are per unit of sensitivity (how much a change in the last digit of the record has grown by then): of displacements
+relative to the largest; of the beginning of an impact what the floors approach each other by in the time that it is off,
+relative to the largest displacement; of impulses relative to the largest. Made by `benchmarks/random_scenes.py`.
 
 | scenes with | scenes | impacts | displacement: median | worst | beginning: median | worst | impulse: median | worst |
 |---|---|---|---|---|---|---|---|---|
