@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import _thread
 import difflib
 import importlib
 import os
 import signal
 import sys
+import threading
 import warnings
 from pathlib import Path
 from typing import NamedTuple
@@ -88,6 +90,7 @@ def overview() -> str:
 def carry_out(module: str, arguments: list[str]) -> int:
     """Does what a command in Python does. Whatever goes wrong is said in a line, and is the exit code."""
     warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    sys.unraisablehook = interrupt_again
     try:
         code: int = importlib.import_module(f"pounding_fmu.{module}").main(arguments)
         sys.stdout.flush()
@@ -108,6 +111,15 @@ def carry_out(module: str, arguments: list[str]) -> int:
         what = f"{type(error).__name__}: {error}"
         return say(f"pounding-fmu has met a bug of its own ({what}); please report it together with the scene")
     return interrupted() if code == INTERRUPTED else code
+
+
+def interrupt_again(unraisable: sys.UnraisableHookArgs) -> None:
+    """Where Ctrl-C comes within a callback that cannot raise, as those of an import, Python says so and goes on. It comes
+    once more instead, when the callback is over."""
+    if unraisable.exc_type is KeyboardInterrupt:
+        threading.Timer(0.01, _thread.interrupt_main).start()
+    else:
+        sys.__unraisablehook__(unraisable)
 
 
 def interrupted() -> int:

@@ -146,3 +146,25 @@ def test_ctrl_c_within_an_exec_is_an_exit_code_too(tmp_path):
         "sys.exit(carry_out('any', []))\n"
     )
     assert subprocess.run([sys.executable, "-m", "ends"], cwd=tmp_path).returncode == 130
+
+
+def test_ctrl_c_within_a_callback_is_not_lost(tmp_path):
+    (tmp_path / "ends.py").write_text(
+        "import importlib, signal, sys, time, types, weakref\n"
+        "from pounding_fmu.__main__ import carry_out\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "class One: pass\n"
+        "def come(_):\n"
+        "    raise KeyboardInterrupt\n"
+        "def main(_):\n"
+        "    one = One()\n"
+        "    kept = weakref.ref(one, come)\n"
+        "    del one\n"
+        "    for _ in range(200):\n"
+        "        time.sleep(0.1)\n"
+        "    return 0\n"
+        "importlib.import_module = lambda _: types.SimpleNamespace(main=main)\n"
+        "sys.exit(carry_out('any', []))\n"
+    )
+    done = subprocess.run([sys.executable, "-m", "ends"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (130, "")
