@@ -49,7 +49,7 @@ class Frame:
     def __init__(self, rng, storeys):
         mass = 10 ** rng.uniform(3.0, 6.0)
         self.mass = rng.uniform(0.5, 1.5, storeys) * mass
-        # About the first frequency of a frame of equal storeys, 0.5 to 5 Hz.
+        # Of one storey, where a frame of equal ones has a first frequency of 0.5 to 5 Hz.
         omega = 2 * math.pi * 10 ** rng.uniform(-0.3, 0.7) / (2 * math.sin(math.pi / (4 * storeys + 2)))
         self.stiffness = rng.uniform(0.6, 1.4, storeys) * mass * omega**2
 
@@ -62,7 +62,7 @@ class Frame:
             ratio = rng.choice([0.0, rng.uniform(0, 0.5)])
             lines += [f"yield_force = {numbers(forces)}", f"post_yield_ratio = {number(ratio)}"]
         if leans:
-            # A tenth at most of the weight that would make a storey unstable.
+            # At most about a tenth, in a soft storey a quarter, of the weight that would make a storey unstable.
             loads = self.stiffness * HEIGHT / len(self.mass) * rng.uniform(0.0, 0.1)
             lines += ["p_delta = true", f"gravity_load = {numbers(loads)}"]
         return lines

@@ -27,16 +27,21 @@ class Truth:
 
 def of(problem, folder: Path):
     """Reads the truth of a problem whose files are in `folder`, made first if it is not of this very scene."""
-    scene, stem = folder / f"{problem.name}.toml", folder / f"{problem.name}.truth"
-    made_of, fingerprint = folder / f"{problem.name}.truth.input", scene_input(scene, folder)
-    if not made_of.exists() or made_of.read_text() != fingerprint:
-        solve = [program(folder), "-", stem]
-        subprocess.run(solve, input=fingerprint, text=True, check=True, stdout=subprocess.DEVNULL)
-        made_of.write_text(fingerprint)
+    stem = folder / f"{problem.name}.truth"
+    solve(folder / f"{problem.name}.toml", stem, OUTPUT_STEP)
     return read(stem, sum(problem.floors))
 
 
-def scene_input(scene, folder, step=OUTPUT_STEP):
+def solve(scene, stem, step, *options):
+    """Writes the tables of a scene beside `stem`, unless they are of this very scene; a CalledProcessError says why not."""
+    made_of, fingerprint = Path(f"{stem}.input"), scene_input(scene, stem.parent, step)
+    if not made_of.exists() or made_of.read_text() != fingerprint:
+        command = [program(stem.parent), "-", stem, *options]
+        subprocess.run(command, input=fingerprint, text=True, check=True, capture_output=True)
+        made_of.write_text(fingerprint)
+
+
+def scene_input(scene, folder, step):
     convert = [sys.executable, REFERENCE / "scene_to_input.py", scene.name, "--step", str(step)]
     return subprocess.run(convert, cwd=folder, text=True, check=True, capture_output=True).stdout.replace(
         "record ", f"record {folder}/", 1

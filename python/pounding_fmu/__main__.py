@@ -117,7 +117,9 @@ def interrupt_again(unraisable: sys.UnraisableHookArgs) -> None:
     """Where Ctrl-C comes within a callback that cannot raise, as those of an import, Python says so and goes on. It comes
     once more instead, when the callback is over."""
     if unraisable.exc_type is KeyboardInterrupt:
-        threading.Timer(0.01, _thread.interrupt_main).start()
+        again = threading.Timer(0.01, _thread.interrupt_main)
+        again.daemon = True  # a command that ends meanwhile has done all that it should
+        again.start()
     else:
         sys.__unraisablehook__(unraisable)
 

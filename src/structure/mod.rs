@@ -69,7 +69,7 @@ pub use links::LinkRow;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::MotionSeries;
-pub use series::expand::{EXACT, PairForces, flight_order};
+pub use series::expand::{EXACT, LONGEST_ANGLE, PIECE_ANGLE, PairForces, flight_order};
 pub use series::sums::{sum_sizes, sum_terms};
 pub use short_flight::{exact_order, fly_in_one_series};
 pub use soil::{SoilRows, period_ratio};

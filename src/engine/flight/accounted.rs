@@ -4,9 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::system::System;
-
-/// Length of a piece of a flight, in units of 1 / (fastest rate): within reach of one series.
-const SERIES_ANGLE: f64 = 1.5;
+use crate::structure::PIECE_ANGLE;
 
 /// Largest number of pieces of one flight; a longer flight takes several steps, unless its motion has died out.
 pub const MOST_PIECES: f64 = 10_000.0;
@@ -17,7 +15,7 @@ const QUIET: f64 = 1e-20;
 impl System {
     /// Number of pieces, each within reach of one series, of a flight of that length, s.
     pub fn pieces(&self, length: f64) -> u64 {
-        (self.structure.in_flight().fastest * length / SERIES_ANGLE).ceil().max(1.0) as u64
+        (self.structure.in_flight().fastest * length / PIECE_ANGLE).ceil().max(1.0) as u64
     }
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
@@ -42,7 +40,7 @@ impl System {
 
     /// Length of the longest flight that is integrated in one step, s.
     pub fn longest_pieces(&self) -> f64 {
-        MOST_PIECES * SERIES_ANGLE / self.structure.in_flight().fastest
+        MOST_PIECES * PIECE_ANGLE / self.structure.in_flight().fastest
     }
 
     /// Whether damping dissipates nothing from now on: there is none, or the oscillation about the static displacement

@@ -4,10 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{Interval, exact_order, fly_in_one_series};
-
-/// Largest (fastest rate) x (time) that one series reaches.
-const SERIES_ANGLE: f64 = 2.0;
+use crate::structure::{Interval, LONGEST_ANGLE, exact_order, fly_in_one_series};
 
 /// Up to so many series cost less than matrices and lose no digits.
 const MOST_PIECES: f64 = 32.0;
@@ -20,7 +17,7 @@ impl System {
             return self.fly_uncoupled(base, h, (load, slope), interval, (q, v));
         }
         let prepared = self.prepared(base, h);
-        let pieces = (self.structure.fastest * h / SERIES_ANGLE).ceil().max(1.0);
+        let pieces = (self.structure.fastest * h / LONGEST_ANGLE).ceil().max(1.0);
         // Written so that a NaN is not few.
         if prepared.is_none() && pieces <= MOST_PIECES {
             return self.fly_in_pieces(base, h, pieces as usize, work, (q, v));

@@ -12,10 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, difference, flight_order};
-
-/// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
-const SERIES_ANGLE: f64 = 1.5;
+use crate::structure::{EXACT, FreeRows, PIECE_ANGLE, difference, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -39,8 +36,7 @@ impl Search<'_> {
     pub fn first_event(&mut self, planned: &mut Planned, counters: &mut Counters) {
         let Search { system, base, .. } = *self;
         let (remaining, flying) = (planned.length, system.structure.in_flight());
-        let mut unit =
-            if flying.fastest * remaining > SERIES_ANGLE { SERIES_ANGLE / flying.fastest } else { remaining };
+        let mut unit = if flying.fastest * remaining > PIECE_ANGLE { PIECE_ANGLE / flying.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
         let are_elastic = self.look.is_free[system.pairs.len()..].iter().all(|is_elastic| *is_elastic);
         if let Some(rows) =

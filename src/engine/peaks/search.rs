@@ -10,13 +10,10 @@ use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, LANES, Lane, flight_order};
+use crate::structure::{EXACT, LANES, Lane, PIECE_ANGLE, flight_order};
 
-/// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
-const SERIES_ANGLE: f64 = 1.5;
-
-/// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
-const LONG: f64 = 64.0 * SERIES_ANGLE;
+/// (Fastest rate) x (time) of a piece, rad, from which on it is worth bounding the amplitudes at its start.
+const LONG: f64 = 64.0 * PIECE_ANGLE;
 
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;
@@ -42,7 +39,7 @@ impl Piece {
     /// The number of leaves of a piece that reaches so far, in units of 1 / (fastest rate), and the times at their ends.
     fn leaves(self, angle: f64) -> (usize, [f64; LEAVES + 1]) {
         let mut count = 1;
-        while count < LEAVES && angle > count as f64 * SERIES_ANGLE {
+        while count < LEAVES && angle > count as f64 * PIECE_ANGLE {
             count *= 2;
         }
         let mut times = [self.to; LEAVES + 1];
@@ -108,7 +105,7 @@ impl PeakFinder<'_> {
         if piece.from >= until {
             return;
         }
-        if angle > LEAVES as f64 * SERIES_ANGLE && piece.halvings > 0 {
+        if angle > LEAVES as f64 * PIECE_ANGLE && piece.halvings > 0 {
             self.clear_by_chords(flight, piece, until, suspects, work);
             if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));

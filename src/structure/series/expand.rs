@@ -25,10 +25,16 @@ pub(crate) const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
 /// Relative remainder below which a truncated series is exact to rounding.
 pub const EXACT: f64 = 1e-19;
 
+/// Largest (fastest rate) x (time), rad, that one series of a flight reaches.
+pub const LONGEST_ANGLE: f64 = 2.0;
+
+/// The same of the pieces in which a flight is searched or accounted for: shorter ones need fewer powers.
+pub const PIECE_ANGLE: f64 = 1.5;
+
 /// Order at which the flight series over an `angle` = (fastest rate) x (time), rad, is good to a relative `remainder`, which is
 /// estimated by angle^n / n!; `None` where the interval is too long for a series.
 pub fn flight_order(angle: f64, remainder: f64) -> Option<usize> {
-    if angle > 2.0 {
+    if angle > LONGEST_ANGLE {
         return None;
     }
     let (mut term, mut order) = (1.0, 0);
