@@ -12,7 +12,7 @@
 //! start of the other.
 
 use crate::engine::bounds::flights::{Flights, Forces};
-use crate::engine::quantities::truncated::{Mode, PushedFloors, TruncatedBlock, TruncatedBody};
+use crate::engine::quantities::truncated::{FourModes, Mode, PushedFloors, TruncatedBlock, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
@@ -47,11 +47,12 @@ pub struct Span<const N: usize> {
     is_pushed: bool,
 }
 
-/// Bounds on one slow mode over a span: on q and on w^2 q + c q' between the ends, and on the deviation from the chord.
+/// Bounds on [`LANES`] slow modes side by side over a span: on q and on w^2 q + c q', of oscillators q', between the ends, and on
+/// the deviations from the chord.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ModeSizes {
-    pub most: [f64; 2],
-    pub sag: [f64; 2],
+    pub most: [Lane; 2],
+    pub sag: [Lane; 2],
 }
 
 /// Bounds on a block of quantities over a span.
@@ -101,39 +102,39 @@ impl<const N: usize> Span<N> {
         self.count.div_ceil(PART)
     }
 
-    /// Reads the slow modes of a building, whose modes are `offset` and on, and which are all of them where forces may act on
-    /// floors: writes q and w^2 q + c q', of oscillators q', at the ends, and the bounds on them. Returns a size by which spans are put in order.
-    pub fn read(
-        &self,
-        flights: &Flights,
-        offset: usize,
-        (modes, oscillates): (&[Mode], bool),
-        out: &mut [[[f64; N]; 2]],
-        sizes: &mut [ModeSizes],
-    ) -> f64 {
-        for t in 0..=self.count {
-            let (q, v) = flights.motion(self.from + t);
-            for (of_mode, (q, v)) in out.iter_mut().zip(q[offset..].iter().zip(&v[offset..])) {
-                (of_mode[0][t], of_mode[1][t]) = (*q, *v);
+    /// Bounds some modes, which are all of them where forces may act on floors. Returns a size by which spans are put in order.
+    pub fn bound_slow(&self, flights: &Flights, fours: &[FourModes], sizes: &mut [ModeSizes]) -> f64 {
+        set_largest(self, flights, fours, sizes);
+        if let Some(Forces { energies, .. }) = flights.forces {
+            for (sizes, four) in sizes.iter_mut().zip(fours) {
+                let energies = energies[self.from * flights.lanes..].chunks_exact(flights.lanes).take(self.count);
+                sizes.sag[0] = energies.fold([0.0; LANES], |most, energies| {
+                    let energies = four.of_vector(energies);
+                    each(|i| larger(most[i], energies[i]))
+                });
             }
         }
-        for of_motion in out.as_flattened_mut() {
-            let end = of_motion[self.count];
-            of_motion[self.count + 1..].fill(end);
-        }
-        let load = match flights.forces {
-            Some(Forces { energies, .. }) => {
-                sizes.iter_mut().for_each(|size| size.sag[0] = 0.0);
-                for energies in energies[self.from * flights.lanes..].chunks_exact(flights.lanes).take(self.count) {
-                    for (size, energy) in sizes.iter_mut().zip(&energies[offset..]) {
-                        size.sag[0] = larger(size.sag[0], *energy);
-                    }
-                }
-                None
-            }
-            None => Some((&self.ground[0], &self.slopes)),
+        let chord = 0.125 * self.longest * self.longest;
+        let finish = |(sizes, four): (&mut ModeSizes, &FourModes)| {
+            let (pulled, energy) = (sizes.most[1], sizes.sag[0].map(f64::sqrt));
+            sizes.sag = four.bends.map(|bends| each(|i| chord * energy[i] * bends[i]));
+            sizes.most = [0, 1].map(|kind| each(|i| sizes.most[kind][i] + sizes.sag[kind][i]));
+            (0..LANES).map(|i| pulled[i] * four.share[i].abs()).sum::<f64>()
         };
-        read_modes((modes, oscillates), load, 0.125 * self.longest * self.longest, out, sizes)
+        sizes.iter_mut().zip(fours).map(finish).sum()
+    }
+
+    /// Reads some modes at the ends: writes q and w^2 q + c q', of oscillators q'.
+    pub fn read_slow(&self, flights: &Flights, fours: &[FourModes], out: &mut [[[f64; N]; 2]]) {
+        for t in 0..N {
+            let (q, v) = flights.motion(self.from + t.min(self.count));
+            for (four, out) in fours.iter().zip(out.as_chunks_mut::<LANES>().0) {
+                let (q, v) = (four.of_vector(q), four.of_vector(v));
+                for (i, out) in out.iter_mut().enumerate() {
+                    (out[0][t], out[1][t]) = (q[i], four.second[0][i] * q[i] + four.second[1][i] * v[i]);
+                }
+            }
+        }
     }
 
     /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
@@ -251,44 +252,24 @@ impl<const N: usize> BlockBounds<N> {
     }
 }
 
+/// Sets `most` to the largest |q| and |w^2 q + c q'|, of oscillators |q'|, at all ends, and the first `sag` to the largest E^2 at
+/// the starts of flights on the ground's motion alone.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn read_modes<const N: usize>(
-    (modes, oscillates): (&[Mode], bool),
-    load: Option<(&[f64; N], &[f64; N])>,
-    chord: f64,
-    motion: &mut [[[f64; N]; 2]],
-    sizes: &mut [ModeSizes],
-) -> f64 {
-    let mut total = 0.0;
-    for (Mode { w2, w, c, share }, ([q, v], sizes)) in modes.iter().zip(motion.iter_mut().zip(sizes)) {
-        let (mut energy, mut moved) = ([0.0; N], [0.0; N]);
-        if let Some((ground, slopes)) = load {
-            for t in 0..N {
-                let pull = w2 * q[t] + c * v[t];
-                let acceleration = -share * ground[t] - pull;
-                let jerk = -share * slopes[t] - c * acceleration - w2 * v[t];
-                energy[t] = jerk * jerk + w2 * acceleration * acceleration;
-                moved[t] = q[t].abs();
-                if !oscillates {
-                    v[t] = pull;
-                }
-            }
-            sizes.sag[0] = largest(&energy);
-        } else {
-            for t in 0..N {
-                moved[t] = q[t].abs();
-                if !oscillates {
-                    v[t] = w2 * q[t] + c * v[t];
-                }
-            }
+fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourModes], sizes: &mut [ModeSizes]) {
+    let motions: [_; N] = std::array::from_fn(|t| flights.motion(span.from + t.min(span.count)));
+    for (four, sizes) in fours.iter().zip(sizes) {
+        let FourModes { w2, c, share, second, .. } = four;
+        let (mut moved, mut pulled, mut energy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for (t, (q, v)) in motions.iter().enumerate().take(span.count + 1) {
+            let (q, v) = (four.of_vector(q), four.of_vector(v));
+            let acceleration = each(|i| -share[i] * span.ground[0][t] - (w2[i] * q[i] + c[i] * v[i]));
+            let jerk = each(|i| -share[i] * span.slopes[t] - c[i] * acceleration[i] - w2[i] * v[i]);
+            moved = each(|i| larger(moved[i], q[i].abs()));
+            pulled = each(|i| larger(pulled[i], (second[0][i] * q[i] + second[1][i] * v[i]).abs()));
+            energy = each(|i| larger(energy[i], jerk[i] * jerk[i] + w2[i] * acceleration[i] * acceleration[i]));
         }
-        let sag = chord * sizes.sag[0].sqrt();
-        let pulled = largest(&v.map(f64::abs));
-        sizes.sag = [sag / w, if oscillates { sag } else { sag * (w + c) }];
-        sizes.most = [largest(&moved) + sizes.sag[0], pulled + sizes.sag[1]];
-        total += pulled * share.abs();
+        *sizes = ModeSizes { most: [moved, pulled], sag: [energy, [0.0; LANES]] };
     }
-    total
 }
 
 #[inline(always)]
@@ -327,9 +308,9 @@ fn bound_block(
 ) -> Lane {
     let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
     for (kind, row) in rows.iter().enumerate() {
-        for (row, sizes) in row.iter().zip(sizes) {
-            for i in 0..LANES {
-                sum[i] += row[i].abs() * sizes.most[kind];
+        for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
+            for (row, most) in rows.iter().zip(sizes.most[kind]) {
+                sum = each(|i| sum[i] + row[i].abs() * most);
             }
         }
     }
@@ -346,9 +327,9 @@ fn bound_block(
 fn sum_sags(rows: &[Vec<Lane>; 2], sizes: &[ModeSizes]) -> Lane {
     let mut sum = [0.0; LANES];
     for (kind, row) in rows.iter().enumerate() {
-        for (row, sizes) in row.iter().zip(sizes) {
-            for i in 0..LANES {
-                sum[i] += row[i].abs() * sizes.sag[kind];
+        for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
+            for (row, sag) in rows.iter().zip(sizes.sag[kind]) {
+                sum = each(|i| sum[i] + row[i].abs() * sag);
             }
         }
     }

@@ -9,13 +9,13 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
-use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
+use crate::engine::bounds::span::{BlockBounds, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold_room::{FoldRoom, OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
-use crate::engine::quantities::truncated::TruncatedBody;
+use crate::engine::quantities::truncated::{FourModes, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -23,6 +23,8 @@ use std::ops::Range;
 /// Flights, and one body's rows to be read over them.
 struct Fold<'a> {
     flights: &'a Flights<'a>,
+    /// The fours of all bodies.
+    fours: &'a [FourModes],
     rows: &'a BodyRows,
     truncated: &'a TruncatedBody,
     /// The quantities at rest.
@@ -59,13 +61,15 @@ impl PeakFinder<'_> {
     ) {
         room.survivors.clear();
         let is_short = flights.count() < SHORT;
+        let fours = &self.watched.truncated.fours[..];
         match is_short {
-            true => room.short.part(flights),
-            false => room.long.part(flights),
+            true => room.short.start(flights, fours),
+            false => room.long.start(flights, fours),
         }
         for (rows, truncated) in self.watched.in_flight().bodies.iter().zip(&self.watched.truncated.bodies) {
             let of_body = rows.first..rows.first + rows.blocks.len();
-            let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
+            let fold =
+                Fold { flights, fours, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
             match is_short {
                 true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
@@ -211,10 +215,9 @@ impl Fold<'_> {
         if known.is_empty() || room.spans.is_empty() {
             return;
         }
-        let mut spans = std::mem::take(&mut room.spans);
-        self.read_spans(&spans, room);
-        let mut order = std::mem::take(&mut room.order);
-        order.sort_unstable_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
+        let (spans, order) = (std::mem::take(&mut room.spans), std::mem::take(&mut room.order));
+        self.bound_quick(&spans, room);
+        room.motion.resize(self.truncated.fours.len() * LANES, [[0.0; N]; 2]);
         for &(_, number) in &order {
             self.read_span((number, &spans[number]), known, room);
         }
@@ -223,46 +226,35 @@ impl Fold<'_> {
         for one in open.iter().filter(|open| !is_below(&open.upper, &known[open.block])) {
             let span = (one.span, &spans[one.span]);
             if read.replace(one.span) != Some(one.span) {
-                self.read_modes(span, room);
+                self.read_modes(span.1, room);
             }
             self.read_block(span, one, known, room, survivors);
         }
         open.clear();
-        (room.spans, room.order, room.open) = (std::mem::take(&mut spans), order, open);
+        (room.spans, room.order, room.open) = (spans, order, open);
     }
 
-    /// Works out the bounds on the modes over all spans.
-    fn read_spans<const N: usize>(&self, spans: &[Span<N>], room: &mut SpanRoom<N>) {
-        room.motion.resize(self.truncated.slow, [[0.0; N]; 2]);
-        room.sizes.resize(spans.len() * self.truncated.slow, ModeSizes::default());
-        room.quick.resize(spans.len() * self.quick_in::<N>(), 0.0);
-        room.order.clear();
-        for (number, span) in spans.iter().enumerate() {
-            let size = self.read_modes((number, span), room);
-            room.order.push((size, number));
-            if !self.truncated.groups.is_empty() {
-                let from = number * self.quick_in::<N>();
-                let quick = &mut room.quick[from..][..(span.parts() + 1) * self.truncated.groups.len()];
-                span.bound_quick(self.flights, self.rows.modes.start, self.truncated, quick);
-            }
+    /// Works out the bounds on the quick modes over all spans.
+    fn bound_quick<const N: usize>(&self, spans: &[Span<N>], room: &mut SpanRoom<N>) {
+        let (groups, each) = (self.truncated.groups.len(), self.quick_in::<N>());
+        room.quick.resize(spans.len() * each, 0.0);
+        for (span, quick) in spans.iter().zip(room.quick.chunks_exact_mut(each.max(1))) {
+            span.bound_quick(
+                self.flights,
+                self.rows.modes.start,
+                self.truncated,
+                &mut quick[..(span.parts() + 1) * groups],
+            );
         }
     }
 
-    fn read_modes<const N: usize>(&self, (number, span): (usize, &Span<N>), room: &mut SpanRoom<N>) -> f64 {
-        let SpanRoom { motion, sizes, .. } = room;
-        let slow = &self.truncated.modes[..self.truncated.slow];
-        span.read(
-            self.flights,
-            self.rows.modes.start,
-            (slow, self.truncated.oscillates),
-            motion,
-            &mut sizes[self.sizes_of(number)],
-        )
+    fn read_modes<const N: usize>(&self, span: &Span<N>, room: &mut SpanRoom<N>) {
+        span.read_slow(self.flights, &self.fours[self.truncated.fours.clone()], &mut room.motion);
     }
 
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.
     fn read_span<const N: usize>(&self, span: (usize, &Span<N>), known: &mut [Lane], room: &mut SpanRoom<N>) {
-        let mut is_read = room.order.len() == 1;
+        let mut is_read = false;
         for (b, block) in self.truncated.blocks.iter().enumerate() {
             let (sizes, quick) = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
             let coarse = span.1.bound_coarsely(self.flights, (block, &self.rest[b]), (sizes, quick));
@@ -270,7 +262,7 @@ impl Fold<'_> {
                 continue;
             }
             if !std::mem::replace(&mut is_read, true) {
-                self.read_modes(span, room);
+                self.read_modes(span.1, room);
             }
             let mut open = OpenBlock { span: span.0, block: b, coarse, upper: coarse };
             let [least, upper] = self.bound(span.1, &open, room).extremes(span.1.count);
@@ -311,7 +303,8 @@ impl Fold<'_> {
     }
 
     fn sizes_of(&self, span: usize) -> Range<usize> {
-        span * self.truncated.slow..(span + 1) * self.truncated.slow
+        let (from, of) = (span * self.fours.len(), &self.truncated.fours);
+        from + of.start..from + of.end
     }
 
     /// Number of bounds on quick modes for one span.

@@ -3,8 +3,8 @@
 use crate::engine::bounds::flights::Flights;
 use crate::engine::bounds::span::{ModeSizes, PART, Span};
 use crate::engine::quantities::rows::PeakRows;
-use crate::engine::quantities::truncated::{TruncatedBody, TruncatedRows};
-use crate::structure::Lane;
+use crate::engine::quantities::truncated::{FourModes, TruncatedBody, TruncatedRows};
+use crate::structure::{LANES, Lane};
 
 /// Times in a span of a long log, and of one or two flights.
 pub(super) const LONG: usize = 16;
@@ -74,17 +74,23 @@ impl<const N: usize> SpanRoom<N> {
         let blocks = rows.bodies.iter().map(|body| body.blocks.len()).max().unwrap_or(0);
         SpanRoom {
             spans: Vec::with_capacity(spans),
-            motion: Vec::with_capacity(most(&|building| building.slow)),
-            sizes: Vec::with_capacity(spans * most(&|building| building.slow)),
+            motion: Vec::with_capacity(LANES * most(&|building| building.fours.len())),
+            sizes: Vec::with_capacity(spans * truncated.fours.len()),
             quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
             order: Vec::with_capacity(spans),
             open: Vec::with_capacity(spans * blocks),
         }
     }
 
-    /// Divides flights into spans.
-    pub(super) fn part(&mut self, flights: &Flights) {
-        self.spans.clear();
-        self.spans.extend((0..flights.count()).step_by(N - 1).map(|from| Span::of(flights, from)));
+    /// Divides flights into spans, and works out bounds on the slow modes over them.
+    pub(super) fn start(&mut self, flights: &Flights, fours: &[FourModes]) {
+        let SpanRoom { spans, sizes, order, .. } = self;
+        spans.clear();
+        spans.extend((0..flights.count()).step_by(N - 1).map(|from| Span::of(flights, from)));
+        sizes.resize(spans.len() * fours.len(), ModeSizes::default());
+        order.clear();
+        let of_spans = spans.iter().zip(sizes.chunks_exact_mut(fours.len().max(1))).enumerate();
+        order.extend(of_spans.map(|(number, (span, sizes))| (span.bound_slow(flights, fours, sizes), number)));
+        order.sort_unstable_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
     }
 }

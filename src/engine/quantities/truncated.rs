@@ -37,6 +37,8 @@ const USUAL: f64 = 0.01;
 /// The quantities of all bodies.
 #[derive(Debug)]
 pub(crate) struct TruncatedRows {
+    /// The fours of modes with slow ones among them.
+    pub fours: Vec<FourModes>,
     pub bodies: Vec<TruncatedBody>,
 }
 
@@ -45,12 +47,10 @@ pub(crate) struct TruncatedRows {
 pub(crate) struct TruncatedBody {
     /// All modes, the slow ones first.
     pub modes: Vec<Mode>,
-    /// Number of slow modes.
-    pub slow: usize,
+    /// The fours with slow modes of the body, among those of all bodies.
+    pub fours: Range<usize>,
     /// Groups of the quick modes.
     pub groups: Vec<Group>,
-    /// Whether the modes are oscillators.
-    pub oscillates: bool,
     /// The blocks of the body's rows.
     pub blocks: Vec<TruncatedBlock>,
 }
@@ -68,6 +68,20 @@ pub(crate) struct Mode {
     pub share: f64,
 }
 
+/// [`LANES`] modes side by side, of one body or two.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FourModes {
+    /// Number of the four in a modal vector.
+    pub number: usize,
+    pub w2: Lane,
+    pub c: Lane,
+    pub share: Lane,
+    /// What rows are read over beside q, w^2 q + c q', of oscillators q', per unit of q and of q'.
+    pub second: [Lane; 2],
+    /// Bounds on the second derivatives of both, per unit of E = sqrt(q'''^2 + w^2 q''^2).
+    pub bends: [Lane; 2],
+}
+
 /// Some quick modes.
 #[derive(Debug)]
 pub(crate) struct Group {
@@ -79,7 +93,8 @@ pub(crate) struct Group {
 /// [`LANES`] quantities.
 #[derive(Debug)]
 pub(crate) struct TruncatedBlock {
-    /// Over the slow modes a row over q, and one over w^2 q + c q', or over q' of oscillators; empty where it is 0.
+    /// Over the body's fours, with 0 for other modes than its slow ones, a row over q, and one over w^2 q + c q', or over q' of
+    /// oscillators; empty where it is 0.
     pub rows: [Vec<Lane>; 2],
     /// The quick modes' part per unit of the ground's acceleration.
     pub per_ground: Lane,
@@ -116,12 +131,18 @@ impl TruncatedRows {
         let usual = if has_forces { 0.0 } else { usual.unwrap_or(USUAL) };
         let mut bodies: Vec<TruncatedBody> =
             rows.bodies.iter().enumerate().map(|(b, body)| TruncatedBody::of((structure, b), body, usual)).collect();
+        let mut numbers: Vec<usize> = bodies.iter().flat_map(|body| body.fours.clone()).collect();
+        numbers.dedup();
+        for TruncatedBody { fours, .. } in &mut bodies {
+            let first = numbers.partition_point(|number| *number < fours.start);
+            *fours = first..first + fours.len();
+        }
         for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| has_forces) {
             for (block, number) in body.blocks.iter_mut().zip(of.first..) {
                 block.pushed = pushed_floors(structure, rows, number);
             }
         }
-        TruncatedRows { bodies }
+        TruncatedRows { fours: numbers.into_iter().map(|number| FourModes::of(structure, number)).collect(), bodies }
     }
 }
 
@@ -139,17 +160,10 @@ fn pushed_floors(structure: &Structure, rows: &PeakRows, block: usize) -> Option
 }
 
 impl TruncatedBody {
+    /// With its fours among those of a modal vector.
     fn of((structure, b): (&Structure, usize), rows: &BodyRows, usual: f64) -> TruncatedBody {
-        let oscillates = structure.oscillators().is_some() && structure.bodies[b].is_coupled();
-        let structure = structure.in_flight();
-        let modes: Vec<Mode> = rows
-            .modes
-            .clone()
-            .map(|m| {
-                let (w2, c, share) = (structure.omega2[m], structure.damping[m], structure.participation[m]);
-                Mode { w2, w: w2.sqrt(), c, share }
-            })
-            .collect();
+        let oscillates = oscillates(structure, b);
+        let modes: Vec<Mode> = rows.modes.clone().map(|m| Mode::of(structure.in_flight(), m)).collect();
         let slow = match modes.len() {
             all if all <= FEW => all,
             all => match modes.iter().filter(|mode| mode.w * usual <= SLOW).count().max(LANES) {
@@ -158,9 +172,53 @@ impl TruncatedBody {
             },
         };
         let groups = group(&modes, slow);
-        let blocks =
-            rows.blocks.iter().map(|block| TruncatedBlock::of((block, oscillates), (&modes, slow), &groups)).collect();
-        TruncatedBody { modes, slow, groups, oscillates, blocks }
+        let first = rows.modes.start;
+        let of_block = |block| TruncatedBlock::of((block, oscillates), first % LANES, (&modes, slow), &groups);
+        let blocks = rows.blocks.iter().map(of_block).collect();
+        TruncatedBody { modes, fours: first / LANES..(first + slow).div_ceil(LANES), groups, blocks }
+    }
+}
+
+/// Whether the modes of a body are oscillators in flights.
+fn oscillates(structure: &Structure, b: usize) -> bool {
+    structure.oscillators().is_some() && structure.bodies[b].is_coupled()
+}
+
+impl Mode {
+    fn of(structure: &Structure, m: usize) -> Mode {
+        let (w2, c, share) = (structure.omega2[m], structure.damping[m], structure.participation[m]);
+        Mode { w2, w: w2.sqrt(), c, share }
+    }
+}
+
+impl FourModes {
+    fn of(structure: &Structure, number: usize) -> FourModes {
+        // None: it rests.
+        let of_lane = |i: usize| {
+            let m = number * LANES + i;
+            let b = structure.bodies.iter().position(|body| body.range.contains(&m))?;
+            Some((Mode::of(structure.in_flight(), m), oscillates(structure, b)))
+        };
+        let modes: [Option<(Mode, bool)>; LANES] = std::array::from_fn(of_lane);
+        let of =
+            |of: fn(&Mode, bool) -> f64| modes.map(|mode| mode.map_or(0.0, |(mode, oscillates)| of(&mode, oscillates)));
+        FourModes {
+            number,
+            w2: of(|mode, _| mode.w2),
+            c: of(|mode, _| mode.c),
+            share: of(|mode, _| mode.share),
+            second: [
+                of(|mode, oscillates| if oscillates { 0.0 } else { mode.w2 }),
+                of(|mode, oscillates| if oscillates { 1.0 } else { mode.c }),
+            ],
+            bends: [of(|mode, _| 1.0 / mode.w), of(|mode, oscillates| if oscillates { 1.0 } else { mode.w + mode.c })],
+        }
+    }
+
+    /// The numbers of these modes in a modal vector.
+    #[inline(always)]
+    pub(crate) fn of_vector(&self, all: &[f64]) -> Lane {
+        all.as_chunks::<LANES>().0[self.number]
     }
 }
 
@@ -183,7 +241,13 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 }
 
 impl TruncatedBlock {
-    fn of((block, oscillates): (&Block, bool), (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
+    /// With so many modes of other bodies before the first one in its four.
+    fn of(
+        (block, oscillates): (&Block, bool),
+        others: usize,
+        (modes, slow): (&[Mode], usize),
+        groups: &[Group],
+    ) -> TruncatedBlock {
         let quick = |m: usize, i: usize| match oscillates {
             true => quick_oscillator(&modes[m], (block.on_q[m][i], block.on_v.get(m).map_or(0.0, |of| of[i]))),
             false => quick_mode(&modes[m], block.on_q[m][i], !block.on_v.is_empty()),
@@ -200,7 +264,7 @@ impl TruncatedBlock {
                 }
             }
         }
-        let rows = slow_rows((block, oscillates), &modes[..slow]);
+        let rows = slow_rows((block, oscillates), &modes[..slow]).map(|row| in_fours(row, others));
         TruncatedBlock { rows, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
     }
 }
@@ -237,4 +301,14 @@ fn slow_rows((Block { on_q, on_v }, oscillates): (&Block, bool), slow: &[Mode]) 
         false if on_v.is_empty() => [first(on_q), Vec::new()],
         false => [Vec::new(), on_q.iter().zip(slow).map(|(row, mode)| row.map(|entry| entry / mode.w2)).collect()],
     }
+}
+
+/// A row with zeros for `others` before its first entry and for those after its last one, in fours of modes.
+fn in_fours(row: Vec<Lane>, others: usize) -> Vec<Lane> {
+    if row.is_empty() {
+        return row;
+    }
+    let mut fours = vec![[0.0; LANES]; (others + row.len()).next_multiple_of(LANES)];
+    fours[others..][..row.len()].copy_from_slice(&row);
+    fours
 }

@@ -157,13 +157,14 @@ fn compare<const N: usize>(case: &Case) -> f64 {
     let mut nearest = f64::INFINITY;
     for (rows, truncated) in case.model.watched.in_flight().bodies.iter().zip(&case.model.watched.truncated.bodies) {
         let groups = truncated.groups.len();
-        let mut motion = vec![[[0.0; N]; 2]; truncated.slow];
-        let mut sizes = vec![ModeSizes::default(); truncated.slow];
+        let fours = &case.model.watched.truncated.fours[truncated.fours.clone()];
+        let mut motion = vec![[[0.0; N]; 2]; LANES * fours.len()];
+        let mut sizes = vec![ModeSizes::default(); fours.len()];
         for from in (0..flights.count()).step_by(N - 1) {
             let span = Span::<N>::of(&flights, from);
             let mut quick = vec![0.0; (N.div_ceil(PART) + 1) * groups];
-            let slow = (&truncated.modes[..truncated.slow], truncated.oscillates);
-            span.read(&flights, rows.modes.start, slow, &mut motion, &mut sizes);
+            span.bound_slow(&flights, fours, &mut sizes);
+            span.read_slow(&flights, fours, &mut motion);
             if groups > 0 {
                 span.bound_quick(&flights, rows.modes.start, truncated, &mut quick[..(span.parts() + 1) * groups]);
             }
@@ -231,8 +232,8 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 case.fly(&mut random, 20, factor);
                 let nearest = &mut nearest[kind];
                 *nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
-                let of_oscillators = case.model.watched.truncated.bodies.iter().filter(|body| body.oscillates);
-                oscillating += of_oscillators.filter(|body| !body.groups.is_empty()).count();
+                let bodies = case.model.watched.truncated.bodies.iter().zip(&case.model.system.structure.bodies);
+                oscillating += bodies.filter(|(rows, body)| body.is_coupled() && !rows.groups.is_empty()).count();
                 truncated += case.model.watched.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
             }
         }
