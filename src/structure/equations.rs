@@ -234,6 +234,15 @@ impl Structure {
         self.coupling.is_empty()
     }
 
+    /// The fastest rate of some modes that make a body, 1/s.
+    pub fn fastest_of(&self, modes: std::ops::Range<usize>) -> f64 {
+        if !self.is_classical() {
+            return self.fastest;
+        }
+        let rates = self.omega2[modes.clone()].iter().zip(&self.damping[modes]);
+        rates.fold(0.0, |fastest, (w2, c)| fastest.max(w2.sqrt()).max(*c))
+    }
+
     /// Whether damping couples the mode to others.
     pub fn couples(&self, mode: usize) -> bool {
         self.coupling

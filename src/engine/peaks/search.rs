@@ -10,10 +10,13 @@ use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, LANES, Lane, PIECE_ANGLE, flight_order};
+use crate::structure::{EXACT, LANES, Lane, flight_order};
 
-/// (Fastest rate) x (time) of a piece, rad, from which on it is worth bounding the amplitudes at its start.
-const LONG: f64 = 64.0 * PIECE_ANGLE;
+/// Largest (fastest rate) x (time), rad, of a leaf: its series has no more than [`MAX_ORDER`] powers.
+const LEAF_ANGLE: f64 = 2.7;
+
+/// The same of a piece, from which on it is worth bounding the amplitudes at its start.
+const LONG: f64 = 40.0 * LEAF_ANGLE;
 
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;
@@ -21,25 +24,32 @@ const OF_LEAF: u32 = u32::MAX;
 /// Largest number of halvings of pieces of a flight: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
 
-/// A piece of a flight, from one time since its start to another, s, and the number of times that it may be halved.
+/// A piece of a flight, from one time since its start to another, s, in which quantities of one body are searched.
 #[derive(Clone, Copy)]
 struct Piece {
     from: f64,
     to: f64,
+    /// The number of times that it may be halved.
     halvings: u32,
+    /// The fastest rate of the body's modes, 1/s.
+    fastest: f64,
 }
 
 impl Piece {
     fn halves(self) -> [Piece; 2] {
-        let Piece { from, to, halvings } = self;
-        let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
-        [Piece { from, to: middle, halvings }, Piece { from: middle, to, halvings }]
+        let (middle, halvings) = (self.from + 0.5 * (self.to - self.from), self.halvings - 1);
+        [Piece { to: middle, halvings, ..self }, Piece { from: middle, halvings, ..self }]
     }
 
-    /// The number of leaves of a piece that reaches so far, in units of 1 / (fastest rate), and the times at their ends.
-    fn leaves(self, angle: f64) -> (usize, [f64; LEAVES + 1]) {
+    /// (Fastest rate) x (length), rad.
+    fn angle(self) -> f64 {
+        self.fastest * (self.to - self.from)
+    }
+
+    /// The number of leaves, and the times at their ends.
+    fn leaves(self) -> (usize, [f64; LEAVES + 1]) {
         let mut count = 1;
-        while count < LEAVES && angle > count as f64 * PIECE_ANGLE {
+        while count < LEAVES && self.angle() > count as f64 * LEAF_ANGLE {
             count *= 2;
         }
         let mut times = [self.to; LEAVES + 1];
@@ -66,8 +76,12 @@ impl PeakFinder<'_> {
         let mut suspects = std::mem::take(&mut work.peaks.suspects);
         self.bound_bends(&mut suspects, &work.peaks.bounds);
         let (until, flight) = (flight.length, flight.whole.unwrap_or(flight));
-        let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
-        self.search_piece(flight, whole, until, &mut suspects, work);
+        for of_body in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
+            let modes = &self.watched.in_flight().bodies[self.body_of(&of_body[0])].modes;
+            let fastest = self.system.structure.in_flight().fastest_of(modes.clone());
+            let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest };
+            self.search_piece(flight, whole, until, of_body, work);
+        }
         suspects.drain(..).for_each(|suspect| peaks.raise(suspect.place, suspect.peak));
         work.peaks.suspects = suspects;
     }
@@ -75,8 +89,8 @@ impl PeakFinder<'_> {
     /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A very long one is halved, for the
     /// quantities that the amplitudes at its start do not keep below their peaks.
     fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let Piece { from, to, halvings } = piece;
-        if from >= until {
+        let halvings = piece.halvings;
+        if piece.from >= until {
             return;
         }
         // Those that are cleared here are open again in the next piece.
@@ -86,7 +100,7 @@ impl PeakFinder<'_> {
                 _ => suspect.pieces_left -= 1,
             }
         }
-        if are_any_left(suspects) && self.system.structure.in_flight().fastest * (to - from) > LONG && halvings > 0 {
+        if are_any_left(suspects) && piece.angle() > LONG && halvings > 0 {
             self.clear_by_amplitudes(flight, piece, suspects, work);
             self.clear_by_chords(flight, piece, until, suspects, work);
             if are_any_left(suspects) {
@@ -101,11 +115,10 @@ impl PeakFinder<'_> {
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at ends of leaves first: then few
     /// leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let angle = self.system.structure.in_flight().fastest * (piece.to - piece.from);
         if piece.from >= until {
             return;
         }
-        if angle > LEAVES as f64 * PIECE_ANGLE && piece.halvings > 0 {
+        if piece.angle() > LEAVES as f64 * LEAF_ANGLE && piece.halvings > 0 {
             self.clear_by_chords(flight, piece, until, suspects, work);
             if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
@@ -113,12 +126,16 @@ impl PeakFinder<'_> {
             open_again(suspects, piece.halvings);
             return;
         }
-        let (count, times) = piece.leaves(angle);
+        let (count, times) = piece.leaves();
         let asked = times[..count].partition_point(|start| *start < until);
-        self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work);
+        match count {
+            // What chords do not show has been looked at.
+            1 => suspects.iter_mut().for_each(|suspect| suspect.leaves = 1),
+            _ => self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work),
+        }
         for k in 0..asked {
             leave_out(suspects, bits(k, 1), OF_LEAF);
-            self.read_leaf(flight, [times[k], times[k + 1]], until, suspects, work);
+            self.read_leaf(flight, Piece { from: times[k], to: times[k + 1], ..piece }, until, suspects, work);
             open_again(suspects, OF_LEAF);
         }
     }
@@ -264,49 +281,41 @@ impl PeakFinder<'_> {
         self.watched.in_flight().block_of(place)
     }
 
-    /// Finds the largest magnitudes within a leaf by its series.
-    fn read_leaf(
-        &self,
-        flight: &Stretch,
-        [from, to]: [f64; 2],
-        until: f64,
-        suspects: &mut [Suspect],
-        work: &mut PeakWork,
-    ) {
+    /// Finds the largest magnitudes within a leaf by its series, of quantities of one body.
+    fn read_leaf(&self, flight: &Stretch, leaf: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
+        if !are_any_left(suspects) {
+            return;
+        }
+        let Piece { from, to, .. } = leaf;
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
         let oscillates = self.watched.oscillates();
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
-        for suspects in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
-            if !are_any_left(suspects) {
-                continue;
-            }
-            let span = self.span_of(self.body_of(&suspects[0]), Coordinates::Modes);
-            self.expand_leaf(flight, (from, to), span, work);
-            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-                let of = suspect.of;
-                self.set_flight_rows(of, &mut rows);
-                let at_rest = flight.rest[suspect.place];
-                let quantity = Quantity {
-                    of,
-                    rows: &rows,
-                    lanes: None,
-                    span,
-                    at_rest,
-                    ground: (ground + slope * from, slope),
-                    oscillates,
-                };
-                let (terms, order) = quantity.terms(&work.buffers.series, None);
-                suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
-            }
+        let span = self.span_of(self.body_of(&suspects[0]), Coordinates::Modes);
+        self.expand_leaf(flight, leaf, span, work);
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+            let of = suspect.of;
+            self.set_flight_rows(of, &mut rows);
+            let at_rest = flight.rest[suspect.place];
+            let quantity = Quantity {
+                of,
+                rows: &rows,
+                lanes: None,
+                span,
+                at_rest,
+                ground: (ground + slope * from, slope),
+                oscillates,
+            };
+            let (terms, order) = quantity.terms(&work.buffers.series, None);
+            suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }
         work.peaks.rows = rows;
     }
 
     /// Expands a piece of a flight into a power series, for the modes of one body.
-    fn expand_leaf(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
-        self.fly_to(flight, from, [0, 1], work);
-        self.set_load(flight, from, work);
-        let order = flight_order(self.system.structure.in_flight().fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
+    fn expand_leaf(&self, flight: &Stretch, leaf: Piece, modes: (usize, usize), work: &mut PeakWork) {
+        self.fly_to(flight, leaf.from, [0, 1], work);
+        self.set_load(flight, leaf.from, work);
+        let order = flight_order(leaf.angle(), EXACT).unwrap_or(MAX_ORDER);
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight_of(
@@ -314,7 +323,7 @@ impl PeakFinder<'_> {
             self.system.structure.in_flight(),
             (q, v),
             (load, flight.loads.1),
-            (to - from, order),
+            (leaf.to - leaf.from, order),
         );
     }
 
