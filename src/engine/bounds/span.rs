@@ -163,24 +163,26 @@ impl<const N: usize> Span<N> {
         }
     }
 
-    /// An upper bound on the magnitudes of a block's quantities over the span, from the bounds on slow and quick modes.
+    /// Upper bounds on the magnitudes of all quantities of some blocks over the span, from the bounds on slow and quick modes.
     pub fn bound_coarsely(
         &self,
         flights: &Flights,
-        (block, at_rest): (&TruncatedBlock, &Lane),
+        (blocks, rest): (&[TruncatedBlock], &[Lane]),
         (sizes, quick): (&[ModeSizes], &[f64]),
-    ) -> Lane {
-        let bounds = (sizes, &quick[self.parts() * block.left.len()..]);
-        let ground = [self.strongest, self.steepest];
-        let Some(floors) = block.pushed.filter(|_| self.is_pushed) else {
-            return bound_block(block, at_rest, bounds, ground);
-        };
-        let [starts, ends] = self.pushes(flights, &floors);
-        let mut added = [0.0; LANES];
-        for push in starts.iter().chain(&ends) {
-            added = each(|i| larger(added[i], push[i].abs()));
+        out: &mut [Lane],
+    ) {
+        let groups = blocks.first().map_or(0, |block| block.left.len());
+        let bounds = (sizes, &quick[self.parts() * groups..]);
+        bound_blocks((blocks, rest), bounds, [self.strongest, self.steepest], out);
+        for (block, out) in blocks.iter().zip(out).filter(|_| self.is_pushed) {
+            if let Some(floors) = block.pushed {
+                let [starts, ends] = self.pushes(flights, &floors);
+                let none = [0.0; LANES];
+                let added =
+                    starts.iter().chain(&ends).fold(none, |most, push| each(|i| larger(most[i], push[i].abs())));
+                *out = each(|i| out[i] + added[i]);
+            }
         }
-        bound_block(block, &each(|i| at_rest[i].abs() + added[i]), bounds, ground)
     }
 
     /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2.
@@ -297,29 +299,29 @@ fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), [ground, slope]: [f64; 2])
     largest(&most).sqrt()
 }
 
-/// An upper bound on the magnitudes of a block's quantities: the slow modes' part by the sums of |A| times the bounds on the
-/// modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
+/// Upper bounds on the magnitudes of the quantities of some blocks: the slow modes' part by the sums of |A| times the bounds
+/// on the modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bound_block(
-    TruncatedBlock { rows, per_ground, per_slope, left, pushed: _ }: &TruncatedBlock,
-    at_rest: &Lane,
+fn bound_blocks(
+    (blocks, rest): (&[TruncatedBlock], &[Lane]),
     (sizes, quick): (&[ModeSizes], &[f64]),
     [strongest, steepest]: [f64; 2],
-) -> Lane {
-    let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
-    for (kind, row) in rows.iter().enumerate() {
-        for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
-            for (row, most) in rows.iter().zip(sizes.most[kind]) {
-                sum = each(|i| sum[i] + row[i].abs() * most);
+    out: &mut [Lane],
+) {
+    for ((TruncatedBlock { rows, per_ground, per_slope, left, .. }, at_rest), out) in blocks.iter().zip(rest).zip(out) {
+        let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
+        for (kind, row) in rows.iter().enumerate() {
+            for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
+                for (row, most) in rows.iter().zip(sizes.most[kind]) {
+                    sum = each(|i| sum[i] + row[i].abs() * most);
+                }
             }
         }
-    }
-    for (row, most) in left.iter().zip(quick) {
-        for i in 0..LANES {
-            sum[i] += row[i] * most;
+        for (row, most) in left.iter().zip(quick) {
+            sum = each(|i| sum[i] + row[i] * most);
         }
+        *out = each(|i| (1.0 + ROUNDING) * sum[i]);
     }
-    each(|i| (1.0 + ROUNDING) * sum[i])
 }
 
 /// The sums of |A| times the modes' deviations from the chord.

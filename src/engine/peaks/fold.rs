@@ -254,10 +254,11 @@ impl Fold<'_> {
 
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.
     fn read_span<const N: usize>(&self, span: (usize, &Span<N>), known: &mut [Lane], room: &mut SpanRoom<N>) {
-        let mut is_read = false;
-        for (b, block) in self.truncated.blocks.iter().enumerate() {
-            let (sizes, quick) = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
-            let coarse = span.1.bound_coarsely(self.flights, (block, &self.rest[b]), (sizes, quick));
+        let (mut is_read, mut coarse) = (false, std::mem::take(&mut room.coarse));
+        coarse.resize(self.truncated.blocks.len(), [0.0; LANES]);
+        let read = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
+        span.1.bound_coarsely(self.flights, (&self.truncated.blocks, self.rest), read, &mut coarse);
+        for (b, &coarse) in coarse.iter().enumerate() {
             if is_below(&coarse, &known[b]) {
                 continue;
             }
@@ -274,6 +275,7 @@ impl Fold<'_> {
                 room.open.push(open);
             }
         }
+        room.coarse = coarse;
     }
 
     /// Notes the flights of a span in which a block may exceed its peaks.

@@ -30,6 +30,8 @@ pub(super) struct SpanRoom<const N: usize> {
     /// Bounds on the slow modes and on the groups of the quick ones, span by span.
     pub(super) sizes: Vec<ModeSizes>,
     pub(super) quick: Vec<f64>,
+    /// Bounds on the blocks of a body over one span.
+    pub(super) coarse: Vec<Lane>,
     /// Sizes and numbers of the spans, largest first.
     pub(super) order: Vec<(f64, usize)>,
     pub(super) open: Vec<OpenBlock>,
@@ -77,6 +79,7 @@ impl<const N: usize> SpanRoom<N> {
             motion: Vec::with_capacity(LANES * most(&|building| building.fours.len())),
             sizes: Vec::with_capacity(spans * truncated.fours.len()),
             quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
+            coarse: Vec::with_capacity(blocks),
             order: Vec::with_capacity(spans),
             open: Vec::with_capacity(spans * blocks),
         }

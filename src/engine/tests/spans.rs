@@ -168,9 +168,11 @@ fn compare<const N: usize>(case: &Case) -> f64 {
             if groups > 0 {
                 span.bound_quick(&flights, rows.modes.start, truncated, &mut quick[..(span.parts() + 1) * groups]);
             }
+            let (at_rest, mut coarse) = (vec![[0.0; LANES]; rows.blocks.len()], vec![[0.0; LANES]; rows.blocks.len()]);
+            span.bound_coarsely(&flights, (&truncated.blocks, &at_rest), (&sizes, &quick), &mut coarse);
             for (b, (block, truncated)) in rows.blocks.iter().zip(&truncated.blocks).enumerate() {
-                let coarse = span.bound_coarsely(&flights, (truncated, &[0.0; LANES]), (&sizes, &quick));
-                let (read, of_quick) = ((&motion[..], &sizes[..]), (&quick[..], &coarse));
+                let coarse = &coarse[b];
+                let (read, of_quick) = ((&motion[..], &sizes[..]), (&quick[..], coarse));
                 let bounds = span.bound(&flights, (truncated, &[0.0; LANES]), read, of_quick);
                 let [least, most] = bounds.extremes(span.count);
                 let mut largest = [0.0_f64; LANES];
