@@ -18,7 +18,7 @@ fn python() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut pytest = Command::new(environment(root, "tests/python"));
     pytest
-        .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "tests/python"])
+        .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--numprocesses", "auto", "tests/python"])
         .current_dir(root)
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .env("CARGO_FMU", cargo_fmu)

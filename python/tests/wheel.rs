@@ -20,7 +20,7 @@ fn wheel() {
     let environment = environment(root(), "examples");
     let tests = root().join("python/tests");
     let mut pytest = Command::new(&environment);
-    pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--doctest-modules"]);
+    pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--numprocesses", "auto", "--doctest-modules"]);
     pytest.arg(&tests).args(["--pyargs", "pounding_fmu"]).current_dir(&tests);
     pytest.env("PATH", environment.parent().unwrap()).env("REFERENCE_FMUS", reference_fmus());
     pytest.env("PYTHONDONTWRITEBYTECODE", "1");
