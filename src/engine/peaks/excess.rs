@@ -56,7 +56,7 @@ impl PeakFinder<'_> {
             false => exceed_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
         }
         // Written so that a NaN is never below anything.
-        let are_below = |excess: &[f64]| excess.iter().all(|excess| *excess <= 0.0);
+        let are_below = |excess: &[f64]| excess.iter().fold(true, |are_below, excess| are_below & (*excess <= 0.0));
         let are_floors_below = are_below(moved) && are_below(drifted) && are_below(pushed);
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
         !(are_floors_below && self.bound_shear(side, h, room).1 <= shear)
