@@ -129,7 +129,7 @@ impl PeakFinder<'_> {
         let (count, times) = piece.leaves();
         let asked = times[..count].partition_point(|start| *start < until);
         match count {
-            // What chords do not show has been looked at.
+            // Both ends of the flight and a sharper bound have not ruled them out (`flight.rs`).
             1 => suspects.iter_mut().for_each(|suspect| suspect.leaves = 1),
             _ => self.find_open_leaves(flight, &times[..=count], (asked, until), suspects, work),
         }
