@@ -45,9 +45,6 @@ pub(in crate::engine) struct PeakFinder<'a> {
     pub watched: &'a Watched,
 }
 
-/// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
-const WORTH_FOLDING: usize = 128;
-
 impl PeakFinder<'_> {
     /// Peaks of 0.
     pub(in crate::engine) fn start_peaks(&self) -> Peaks {
@@ -116,9 +113,10 @@ impl PeakFinder<'_> {
     }
 
     /// Makes the log ready for a step in contact or in which a storey yields: contact forces change the motion, and storeys
-    /// that yield the position of rest.
+    /// that yield the position of rest. What is logged is not folded before a contact: that would spare it few searches, and
+    /// the fold of a full log is cheaper.
     pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut FlightLog, PeakWork)) {
-        if base.is_yielding() || log.count() > WORTH_FOLDING {
+        if base.is_yielding() {
             self.fold_log(base, (log, &mut work));
         } else {
             log.close((&base.q, &base.v));
