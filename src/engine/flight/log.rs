@@ -12,8 +12,12 @@ use crate::engine::flight::fast_account::SegmentAccount;
 use crate::numerics::identity::next_identity;
 use crate::structure::{LANES, Lane};
 
-/// Largest number of logged motions, and of bytes.
+/// Number of logged motions without any modes, for each lane of modes, and at most. A long log leaves less to be searched, which
+/// counts where there are many quantities; a short one touches less memory for the first time, which counts in short runs.
+const FEW: usize = 256;
+const FOR_LANE: usize = 4;
 const MOST: usize = 1024;
+/// Largest number of bytes.
 const MOST_BYTES: usize = 4 << 20;
 /// Least number: a flight with a gap after it, and as many more.
 const LEAST: usize = 4;
@@ -47,7 +51,8 @@ impl FlightLog {
     /// For vectors of that many lanes, with forces on so many floors.
     pub fn new(lanes: usize, floors: usize) -> FlightLog {
         let numbers = 2 * lanes + if floors == 0 { 0 } else { lanes + 2 * (floors + LANES) };
-        let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (8 * numbers)).max(LEAST) };
+        let wanted = (FEW + FOR_LANE * lanes).min(MOST);
+        let most = if lanes == 0 { 0 } else { wanted.min(MOST_BYTES / (8 * numbers)).max(LEAST) };
         FlightLog::with_room((lanes, floors), most)
     }
 
