@@ -14,7 +14,7 @@ use crate::structure::{LANES, Lane};
 
 /// Number of logged motions without any modes, for each lane of modes, and at most. A long log leaves less to be searched, which
 /// counts where there are many quantities; a short one touches less memory for the first time, which counts in short runs.
-const FEW: usize = 256;
+const FEW: usize = 448;
 const FOR_LANE: usize = 4;
 const MOST: usize = 1024;
 /// Largest number of bytes.
