@@ -12,6 +12,7 @@ use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use super::soil::{self, SoilRows};
 use crate::scene::{Link, Place, Scene, Side, Soil};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// Number of floor forces that are projected on the modes at a time.
 const AT_ONCE: usize = 8;
@@ -235,7 +236,7 @@ impl Structure {
     }
 
     /// The fastest rate of some modes that make a body, 1/s.
-    pub fn fastest_of(&self, modes: std::ops::Range<usize>) -> f64 {
+    pub fn fastest_of(&self, modes: Range<usize>) -> f64 {
         if !self.is_classical() {
             return self.fastest;
         }

@@ -74,12 +74,14 @@ impl PeakFinder<'_> {
             return;
         }
         let mut suspects = std::mem::take(&mut work.peaks.suspects);
-        self.bound_bends(&mut suspects, &work.peaks.bounds);
         let (until, flight) = (flight.length, flight.whole.unwrap_or(flight));
         for of_body in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
             let modes = &self.watched.in_flight().bodies[self.body_of(&of_body[0])].modes;
             let fastest = self.system.structure.in_flight().fastest_of(modes.clone());
             let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest };
+            if whole.angle() > LEAF_ANGLE {
+                self.bound_bends(of_body, &work.peaks.bounds);
+            }
             self.search_piece(flight, whole, until, of_body, work);
         }
         suspects.drain(..).for_each(|suspect| peaks.raise(suspect.place, suspect.peak));
@@ -259,9 +261,8 @@ impl PeakFinder<'_> {
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
         let own =
             Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
-        for body in &self.watched.in_flight().bodies {
-            peaks.piece.set(self.system.structure.in_flight(), body.modes.clone(), &own, jerk);
-        }
+        let modes = self.watched.in_flight().bodies[self.body_of(&suspects[0])].modes.clone();
+        peaks.piece.set(self.system.structure.in_flight(), modes, &own, jerk);
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
             let (place, (body, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
             let mut known = [f64::INFINITY; LANES];
