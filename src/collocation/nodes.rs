@@ -1,5 +1,6 @@
 //! The nodes of a window and polynomials through them.
 
+use crate::numerics::roots::Knot;
 use std::sync::OnceLock;
 
 /// Most nodes of a window.
@@ -122,7 +123,7 @@ impl Nodes {
             unit[j] = 1.0;
             let basis = all.interpolant(&unit);
             for i in 0..count {
-                all.derivative[j][i] = basis.derivatives(all.x[i])[1];
+                all.derivative[j][i] = basis.knot(all.x[i]).slope;
             }
         }
         all
@@ -181,19 +182,19 @@ impl Interpolant {
         sum
     }
 
-    /// Value and first and second derivative by x.
+    /// Value and slope at x.
     #[inline(always)]
-    pub(crate) fn derivatives(&self, x: f64) -> [f64; 3] {
+    pub(crate) fn knot(&self, x: f64) -> Knot {
         let z = 2.0 * x - 1.0;
-        let (mut last, mut before, mut sum) = ([1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
+        let (mut last, mut before, mut sum) = ([1.0, 0.0], [0.0; 2], [0.0; 2]);
         for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {
-            let products = [z * last[0], z * last[1] + 2.0 * last[0], z * last[2] + 4.0 * last[1]];
-            for i in 0..3 {
+            let products = [z * last[0], z * last[1] + 2.0 * last[0]];
+            for i in 0..2 {
                 sum[i] += c * last[i];
                 let next = rising * products[i] - falling * before[i];
                 (before[i], last[i]) = (last[i], next);
             }
         }
-        sum
+        Knot { x, value: sum[0], slope: sum[1] }
     }
 }

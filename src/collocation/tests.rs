@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::Force;
+use crate::numerics::roots::Knot;
 
 /// A pair of a free reduced mass.
 fn free_mass(mass: f64, force: Force, d: f64, v: f64, omega: f64, scale: f64) -> Equation {
@@ -166,7 +167,7 @@ fn a_polynomial_comes_back_from_its_values() {
     let nodes = nodes(Rule::Sixteen);
     let interpolant = nodes.interpolant(&nodes.x.map(polynomial));
     for x in [0.0, 0.01, 0.37, 0.99, 1.0] {
-        let ([value], [same, rate, _]) = (interpolant.at(&[x]), interpolant.derivatives(x));
+        let ([value], Knot { value: same, slope: rate, .. }) = (interpolant.at(&[x]), interpolant.knot(x));
         // Derivatives at the ends of a polynomial of degree n lose up to n^2 of its rounding, twice.
         assert!((value - polynomial(x)).abs() < 1e-13 && (same - value).abs() < 1e-13, "{value} at {x}");
         assert!((rate - slope(x)).abs() < 1e-9, "{rate} instead of {} at {x}", slope(x));

@@ -15,7 +15,7 @@ use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
-use crate::numerics::roots;
+use crate::numerics::roots::{self, Knot, turning_point};
 use crate::structure::MotionSeries;
 
 /// Number of parts into which an onset step is divided to find turning points.
@@ -34,11 +34,6 @@ const NEARLY: f64 = 0.95;
 const BENT: f64 = 0.25;
 /// How often they are halved.
 const MOST_HALVINGS: u32 = 12;
-
-/// Remaining gain at a turning point, relative to its value, at which the search ends.
-const CLOSE: f64 = 1e-13;
-/// Largest number of evaluations in such a search.
-const MOST_READINGS: usize = 20;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -65,15 +60,6 @@ impl ContactStep<'_> {
         let (ground, slope) = self.ground();
         larger(ground.abs(), (ground + slope * self.length).abs())
     }
-}
-
-/// A quantity evaluated at a time of a step.
-#[derive(Clone, Copy)]
-struct Reading {
-    /// Time since the start of the step, s.
-    time: f64,
-    value: f64,
-    slope: f64,
 }
 
 /// The largest magnitude of a quantity in the first part of an onset step, or `known` if that is larger.
@@ -154,7 +140,7 @@ impl PeakFinder<'_> {
         window: (&Window, &MotionSeries),
         part: &ContactStep,
         work: &mut PeakWork,
-    ) -> Reading {
+    ) -> Knot {
         let (ground, ground_slope) = quantity.ground;
         let ground = ground + ground_slope * time;
         let (place, is_known, mut room) = work.peaks.readings.take(time);
@@ -172,7 +158,7 @@ impl PeakFinder<'_> {
             }
         };
         work.peaks.readings.put(place, room);
-        Reading { time, value, slope }
+        Knot { x: time, value, slope }
     }
 
     /// Evaluates the motion at the time of a room, its accelerations and their rates, from the equations of motion with that
@@ -248,7 +234,7 @@ impl OnsetQuantity {
         Some(OnsetQuantity { terms, at_rest: quantity.at_rest })
     }
 
-    fn read(&self, time: f64, onset: &OnsetSeries, (ground, ground_slope): (f64, f64)) -> Reading {
+    fn read(&self, time: f64, onset: &OnsetSeries, (ground, ground_slope): (f64, f64)) -> Knot {
         let x = time / onset.scale;
         let (mut value, mut slope) = (0.0, 0.0);
         if let Some(grid) = onset.grid() {
@@ -267,14 +253,14 @@ impl OnsetQuantity {
         if self.terms[2].iter().any(|term| *term != 0.0) {
             (value, slope) = (value + ground + ground_slope * time, slope + ground_slope);
         }
-        Reading { time, value, slope }
+        Knot { x: time, value, slope }
     }
 }
 
 /// The largest magnitude over the times from..to, as far as they lie before `until`, or `known` if that is larger. The
 /// whole step is divided into the same parts, an even number of them, so that a turning point has the same bits whatever
 /// part is asked for.
-fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read: impl FnMut(f64) -> Reading) -> f64 {
+fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read: impl FnMut(f64) -> Knot) -> f64 {
     let mut search = Search { peak: known, until, read };
     let at = |i: u32| if i == parts { to } else { from + (to - from) * (f64::from(i) / f64::from(parts)) };
     let mut last = (search.read)(from);
@@ -295,78 +281,38 @@ struct Search<R> {
     read: R,
 }
 
-impl<R: FnMut(f64) -> Reading> Search<R> {
+impl<R: FnMut(f64) -> Knot> Search<R> {
     /// Raises the peak over the part between two readings; where nothing is seen to turn between them it may be halved.
-    fn raise(&mut self, a: Reading, b: Reading, halvings: u32) {
-        if a.time > self.until {
+    fn raise(&mut self, a: Knot, b: Knot, halvings: u32) {
+        if a.x > self.until {
             return;
         }
         let mut turns = false;
         for sign in [1.0, -1.0] {
-            let ends = (a.times(sign), b.times(sign));
-            if ends.0.slope > 0.0 && ends.1.slope < 0.0 {
+            let ends = [a.times(sign), b.times(sign)];
+            if ends[0].slope > 0.0 && ends[1].slope < 0.0 {
                 turns = true;
-                if top(ends.0, ends.1).1 > NEARLY * self.peak {
-                    let found = turn(ends.0, ends.1, |time| (self.read)(time).times(sign));
-                    self.peak = larger(self.peak, if found.time <= self.until { found.value } else { 0.0 });
+                if ends[0].summit(ends[1]).1 > NEARLY * self.peak {
+                    let time = turning_point(ends, |time| (self.read)(time).times(sign));
+                    let peak = if time <= self.until { (self.read)(time).value } else { 0.0 };
+                    self.peak = larger(self.peak, sign * peak);
                 }
             }
         }
         if halvings > 0 && !turns {
-            let middle = (self.read)(0.5 * (a.time + b.time));
+            let middle = (self.read)(0.5 * (a.x + b.x));
             let halvings = if self.is_bent(a, middle, b) { halvings - 1 } else { 0 };
             self.raise(a, middle, halvings);
             self.raise(middle, b, halvings);
-        } else if b.time <= self.until {
+        } else if b.x <= self.until {
             self.peak = larger(self.peak, b.value.abs());
         }
     }
 
     /// Whether a quantity is far from the cubic through two readings in their middle, so that it may turn twice between
     /// them: by a share of its peak, which is small before the contact has reached a storey.
-    fn is_bent(&self, a: Reading, middle: Reading, b: Reading) -> bool {
-        let cubic = 0.5 * (a.value + b.value) + 0.125 * (b.time - a.time) * (a.slope - b.slope);
+    fn is_bent(&self, a: Knot, middle: Knot, b: Knot) -> bool {
+        let cubic = 0.5 * (a.value + b.value) + 0.125 * (b.x - a.x) * (a.slope - b.slope);
         (middle.value - cubic).abs() > BENT * self.peak
     }
-}
-
-impl Reading {
-    fn times(self, sign: f64) -> Reading {
-        Reading { time: self.time, value: sign * self.value, slope: sign * self.slope }
-    }
-}
-
-/// (time, value) of the maximum of the cubic through two ends, between which it rises first and falls then.
-fn top(a: Reading, b: Reading) -> (f64, f64) {
-    let w = b.time - a.time;
-    let (first, rise, last) = (w * a.slope, b.value - a.value, w * b.slope);
-    let (second, third) = (3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise);
-    let root = (second * second - 3.0 * third * first).max(0.0).sqrt();
-    let s = (first / (root - second)).clamp(0.0, 1.0);
-    (a.time + w * s, a.value + s * (first + s * (second + s * third)))
-}
-
-/// The quantity at its turning point from rising to falling between two readings, by cubics through ever closer
-/// readings.
-fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) -> Reading {
-    let mut best = if b.value > a.value { b } else { a };
-    for _ in 0..MOST_READINGS {
-        let (time, _) = top(a, b);
-        if !(time > a.time && time < b.time) {
-            break;
-        }
-        let middle = read(time);
-        // The gain that a parabola with the mean curvature of the bracket still has.
-        let gain = 0.5 * middle.slope * middle.slope * (b.time - a.time) / (a.slope - b.slope);
-        best = if middle.value > best.value { middle } else { best };
-        if gain <= CLOSE * best.value.abs() {
-            break;
-        }
-        if middle.slope > 0.0 {
-            a = middle;
-        } else {
-            b = middle;
-        }
-    }
-    best
 }

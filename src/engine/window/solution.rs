@@ -8,7 +8,7 @@ use crate::engine::system::System;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::kernels::Windows;
 use crate::numerics::polynomial::{each, larger, value_and_slope};
-use crate::numerics::roots;
+use crate::numerics::roots::{self, turning_point};
 
 /// The node next to a peak has at least this share of it.
 const NEARLY: f64 = 0.97;
@@ -292,33 +292,19 @@ impl FollowedPart {
         let mut top = (x_of(at), best);
         if at < before || self.rates.is_none_or(|(_, end)| end < 0.0) {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
-            let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
-            if let Some((x, value)) = found.filter(|found| found.1 > best) {
-                top = (roots::roughly(x), value);
-            }
+            let found = summit(self.nodes, values, [low, x_of(at + 1)]);
+            top = found.filter(|found| found.1 > best).unwrap_or(top);
         }
         (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
     }
 }
 
-/// (x, value) of the maximum of the polynomial through values at the nodes in low..high, by Newton's method from
-/// `from`.
+/// (x, value) of the maximum of the polynomial through values at the nodes between two x.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn summit(nodes: &Nodes, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
+fn summit(nodes: &Nodes, values: &Row, ends: [f64; 2]) -> Option<(f64, f64)> {
     let interpolant = nodes.interpolant(values);
-    let mut x = from;
-    for _ in 0..8 {
-        let [value, slope, curvature] = interpolant.derivatives(x);
-        let step = slope / curvature;
-        // Near the maximum the value is flat: with half of the digits of x it has all of its own.
-        if curvature < 0.0 && step.abs() < 1e-9 {
-            return Some((x, value));
-        }
-        let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
-        if next == x {
-            return None;
-        }
-        x = next;
-    }
-    None
+    let read = |x: f64| interpolant.knot(x);
+    let ends = ends.map(read);
+    let turns = ends[0].slope > 0.0 && ends[1].slope < 0.0;
+    turns.then(|| roots::roughly(turning_point(ends, read))).map(|x| (x, read(x).value))
 }

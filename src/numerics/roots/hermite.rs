@@ -1,6 +1,8 @@
 //! Bounds on value, slope and curvature of a function over a piece, from values and slopes at both ends (cubic Hermite
 //! interpolation) and a bound on its fourth derivative.
 
+use super::turning_point::Knot;
+
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 pub(super) const NARROWEST: f64 = 1e-9;
 
@@ -12,6 +14,12 @@ pub(super) struct End {
     pub slope: f64,
     /// Bound on the fourth derivative over 0..=x, so that each piece has its own.
     pub fourth: f64,
+}
+
+impl From<End> for Knot {
+    fn from(End { x, value, slope, .. }: End) -> Knot {
+        Knot { x, value, slope }
+    }
 }
 
 impl End {

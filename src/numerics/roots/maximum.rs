@@ -2,6 +2,7 @@
 
 use super::hermite::{End, NARROWEST};
 use super::terms::Terms;
+use super::turning_point::turning_point;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Reading;
 
@@ -68,45 +69,10 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
     raise_to_maximum(terms, noise, (middle, b), best);
 }
 
-/// Where the slope of a concave piece is 0: Newton's method, kept inside a shrinking bracket.
+/// Where a concave piece turns.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
-    let (mut low, mut high) = (a.x, b.x);
-    let mut x = maximum_of_cubic(a, b);
-    for _ in 0..60 {
-        let (slope, curvature) = terms.slope_and_curvature(x);
-        if slope > 0.0 {
-            low = x;
-        } else {
-            high = x;
-        }
-        let step = slope / curvature;
-        let newton = x - step;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        // Newton converges quadratically: the next step would be about the square of this one, and the value is flat
-        // here.
-        if step.abs() <= 1e-7 * (b.x - a.x) {
-            return if newton >= a.x && newton <= b.x { newton } else { x };
-        }
-        x = next;
-    }
-    x
-}
-
-/// The approximate maximum of the cubic interpolant of a piece that rises first and then falls, inside the piece.
-fn maximum_of_cubic(a: End, b: End) -> f64 {
-    let w = b.x - a.x;
-    let middle = 3.0 * (b.value - a.value) / w - (a.slope + b.slope);
-    let (second, third) = (2.0 * (middle - a.slope), a.slope - 2.0 * middle + b.slope);
-    let mut s = (a.slope / (a.slope - b.slope)).clamp(0.0, 1.0);
-    for _ in 0..2 {
-        let next = s - (a.slope + s * (second + s * third)) / (second + 2.0 * third * s);
-        if !(next > 0.0 && next < 1.0) {
-            break;
-        }
-        s = next;
-    }
-    a.x + w * s
+    turning_point([a.into(), b.into()], |x| terms.knot(x))
 }
 
 /// x rounded to eight digits. Near a maximum the value is flat, so that it keeps sixteen digits; and it is the same to

@@ -11,7 +11,9 @@ mod maximum;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod turning_point;
 
 pub(crate) use crossing::first_upcrossing;
 pub(crate) use hermite::{deviation, highest_of_cubic, may_turn_above, upper_bound};
 pub(crate) use maximum::{maximum_above, roughly};
+pub(crate) use turning_point::{Knot, turning_point};

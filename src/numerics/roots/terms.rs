@@ -1,6 +1,7 @@
 //! A polynomial in blocks of four terms: four polynomials in x^4, evaluated side by side by Horner's rule.
 
 use super::hermite::End;
+use super::turning_point::Knot;
 use crate::numerics::polynomial::{Coefficients, FOURTH, MAX_TERMS, each};
 
 /// Number of terms that are worked on side by side.
@@ -95,22 +96,11 @@ impl Terms {
         value_and_slope(self.blocks(), Place::at(x))
     }
 
-    /// Slope and curvature at x.
+    /// Value and slope at x, with the x.
     #[inline(always)]
-    pub(crate) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        let at = Place::at(x);
-        let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-        for block in self.blocks().iter().rev() {
-            half = each(|i| half[i] * at.y + by_y[i]);
-            by_y = each(|i| by_y[i] * at.y + value[i]);
-            value = each(|i| value[i] * at.y + block[i]);
-        }
-        // dy/dx = 4 x^3.
-        let rate = 4.0 * at.x3;
-        let curvature_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
-        let own = 2.0 * value[2] + 6.0 * (value[3] * at.x);
-        let slope = at.slope(value) + rate * at.total(by_y);
-        (slope, own + 2.0 * rate * at.slope(by_y) + curvature_of_y)
+    pub(super) fn knot(&self, x: f64) -> Knot {
+        let (value, slope) = self.value_and_slope(x);
+        Knot { x, value, slope }
     }
 
     /// Sum of the magnitudes of all terms at x >= 0.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::terms::Terms;
-use super::{first_upcrossing, maximum_above};
+use super::{Knot, first_upcrossing, maximum_above, turning_point};
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::powers::Powers;
 
@@ -129,4 +129,42 @@ fn the_maximum_inside_is_found() {
     // The highest of several, not the first: x (x - 0.4)^2 has 0.009 at 0.13 and 0.36 at 1.
     let (x, value) = highest(&polynomial(1.0, &[0.0, 0.4, 0.4]), 0.0).unwrap();
     assert!(x == 1.0 && (value - 0.36).abs() < 1e-15, "{x}, {value}");
+}
+
+/// A curve (value and slope by x), between which x it turns, where, and the largest number of readings.
+type Turning = (fn(f64) -> (f64, f64), [f64; 2], f64, usize);
+
+#[test]
+fn a_turning_point_takes_few_readings() {
+    let curves: [Turning; 5] = [
+        (|x| (x.sin(), x.cos()), [0.1, 3.0], std::f64::consts::FRAC_PI_2, 4),
+        // The first reading is the point itself.
+        (|x| (x * (1.0 - x), 1.0 - 2.0 * x), [0.0, 1.0], 0.5, 1),
+        // A force of Hertz that a fourth power ends, from where its curvature is unbounded.
+        (|x| (x.powf(1.5) - x.powi(4), 1.5 * x.sqrt() - 4.0 * x.powi(3)), [1e-12, 1.0], 0.375_f64.powf(0.4), 6),
+        // At one end of the piece, and a peak that no cubic resembles.
+        (|x| (x * (-20.0 * x).exp(), (1.0 - 20.0 * x) * (-20.0 * x).exp()), [0.0, 1.0], 0.05, 10),
+        (
+            |x| {
+                let (off, width) = (x - 0.7, 1.0 + 1e4 * (x - 0.7) * (x - 0.7));
+                (1.0 / width, -2e4 * off / (width * width))
+            },
+            [0.0, 1.0],
+            0.7,
+            20,
+        ),
+    ];
+    for (k, (curve, ends, point, most)) in curves.into_iter().enumerate() {
+        let mut readings = 0;
+        let knot = |x: f64| {
+            let (value, slope) = curve(x);
+            Knot { x, value, slope }
+        };
+        let found = turning_point(ends.map(knot), |x| {
+            readings += 1;
+            knot(x)
+        });
+        assert!((found - point).abs() < 1e-10, "curve {k}: {found} instead of {point}");
+        assert!(readings <= most, "curve {k}: {readings} readings");
+    }
 }
