@@ -1,10 +1,10 @@
-//! Both buildings in modal coordinates: their equation of motion, forces and energies.
+//! Both buildings in modal coordinates: their equation of motion.
 
 use super::base_shear::BaseShear;
 use super::bodies::Body;
 use super::flight_modes::FlightModes;
 use super::floors::Floors;
-use super::form::{Form, row_times, squares};
+use super::form::Form;
 use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
@@ -13,9 +13,6 @@ use super::soil::{self, SoilRows};
 use crate::scene::{Link, Place, Scene, Side, Soil};
 use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// Number of floor forces that are projected on the modes at a time.
-const AT_ONCE: usize = 8;
 
 /// Both buildings in modal coordinates.
 #[derive(Clone, Debug)]
@@ -46,7 +43,7 @@ pub struct Structure {
     pub weight: Vec<f64>,
     /// Largest w or c of all modes, 1/s: the highest rate in the structure.
     pub fastest: f64,
-    coupling: Vec<Coupling>,
+    pub(super) coupling: Vec<Coupling>,
     /// What moves in flights, where that is not the modes, and how it goes with these.
     flight: Option<(FlightModes, Box<Structure>)>,
     /// The buildings floor by floor.
@@ -55,16 +52,16 @@ pub struct Structure {
     to_floors: Vec<LaneMatrix>,
     to_modes: Vec<LaneMatrix>,
     /// For each floor number of a body the shapes of all modes there; empty unless forces act on floors.
-    floor_shapes: Vec<f64>,
+    pub(super) floor_shapes: Vec<f64>,
 }
 
 /// Off-diagonal damping of one body, 1/s.
 #[derive(Clone, Debug)]
-struct Coupling {
+pub(super) struct Coupling {
     offset: usize,
     matrix: DMatrix<f64>,
     /// Power that it takes from velocities.
-    power: Form,
+    pub(super) power: Form,
 }
 
 impl Structure {
@@ -267,68 +264,6 @@ impl Structure {
         }
     }
 
-    /// Adds the modal load of a force, N, on one floor.
-    pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let body = self.body(side);
-        let (Body { modes, range, .. }, row) = (body, body.row(side, floor));
-        let shapes = self.floor_shapes.get(row * self.lanes..).and_then(|row| row.get(range.clone()));
-        match shapes {
-            Some(row) => add_multiple(row, force, &mut load[range.clone()]),
-            None => {
-                for (shape, load) in modes.shape.row(row).iter().zip(&mut load[range.clone()]) {
-                    *load += shape * force;
-                }
-            }
-        }
-    }
-
-    /// Adds the modal load of a force, N, or a moment, N m, on one displacement of a building, if it has that.
-    pub fn add_force(&self, side: Side, place: Place, force: f64, load: &mut [f64]) {
-        match (place, self.body(side).row_of(side, place)) {
-            (Place::Floor(floor), _) => self.add_floor_force(side, floor, force, load),
-            (_, Some(row)) => {
-                let Body { modes, range, .. } = self.body(side);
-                for (shape, load) in modes.shape.row(row).iter().zip(&mut load[range.clone()]) {
-                    *load += shape * force;
-                }
-            }
-            (_, None) => {}
-        }
-    }
-
-    /// Adds the modal load of forces, N, on some floors of a building: to the same bits as one after the other.
-    pub fn add_floor_forces(&self, side: Side, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
-        let (range, first) = (self.body(side).range.clone(), self.body(side).row(side, 0));
-        let (mut group, mut count) = ([(0, 0.0); AT_ONCE], 0);
-        for force in forces {
-            group[count] = force;
-            count += 1;
-            if count == AT_ONCE {
-                match self.floor_shapes.is_empty() {
-                    true => group.iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load)),
-                    false => {
-                        let rows = group.map(|(floor, force)| (first + floor, force));
-                        add_multiples(&self.floor_shapes, (self.lanes, range.start), &rows, &mut load[range.clone()])
-                    }
-                }
-                count = 0;
-            }
-        }
-        group[..count].iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load));
-    }
-
-    /// Lays out the shapes floor by floor: for forces on all floors, which are projected on the modes again and again.
-    pub fn prepare_floor_forces(&mut self) {
-        let highest = self.bodies.iter().map(|body| body.modes.shape.nrows()).max();
-        self.floor_shapes = vec![0.0; highest.unwrap_or(0) * self.lanes];
-        for body in &self.bodies {
-            for (floor, row) in body.modes.shape.row_iter().enumerate() {
-                let out = &mut self.floor_shapes[floor * self.lanes..][body.range.clone()];
-                out.iter_mut().zip(row.iter()).for_each(|(out, shape)| *out = *shape);
-            }
-        }
-    }
-
     /// The vector of all floors from a modal one.
     pub fn to_floors(&self, modal: &[f64], floors: &mut [f64]) {
         floors.fill(0.0);
@@ -394,42 +329,6 @@ impl Structure {
             shear += participation * resisting;
         }
         shear
-    }
-
-    /// Kinetic and strain energy, J.
-    pub fn energies(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
-        let kinetic: f64 = v.iter().map(|v| v * v).sum();
-        let strain: f64 = q.iter().zip(&self.omega2).map(|(q, w2)| w2 * q * q).sum();
-        (0.5 * kinetic, 0.5 * strain)
-    }
-
-    /// Power that structural damping takes, W.
-    pub fn viscous_power(&self, v: &[f64]) -> f64 {
-        let mut lanes = [0.0; LANES];
-        for (v, c) in v.as_chunks::<LANES>().0.iter().zip(self.damping.as_chunks::<LANES>().0) {
-            for i in 0..LANES {
-                lanes[i] += c[i] * v[i] * v[i];
-            }
-        }
-        let mut power: f64 = lanes.iter().sum();
-        for coupling in &self.coupling {
-            power += coupling.power.of_vectors(v.as_chunks::<1>().0)[0];
-        }
-        power
-    }
-
-    /// Sums over modes of participation times velocity, kg m/s, and the power of damping, W, of several motions side by side;
-    /// writes those of the dashpots of links.
-    pub(super) fn powers_of<const N: usize>(&self, v: &[[f64; N]], dashpots: &mut [[f64; N]]) -> [[f64; N]; 2] {
-        let (momentum, mut viscous) = (row_times(&self.participation, v), squares(self.damping.iter().copied(), v));
-        for coupling in &self.coupling {
-            let of_body = coupling.power.of_vectors(v);
-            viscous.iter_mut().zip(of_body).for_each(|(power, of_body)| *power += of_body);
-        }
-        for (link, power) in self.links.iter().zip(dashpots) {
-            *power = row_times(&link.row, v).map(|rate| link.dashpot * (rate * rate));
-        }
-        [momentum, viscous]
     }
 
     /// A bound on |q''''| of each mode over any time to come in which the load is linear in time and no contact acts.
@@ -517,31 +416,5 @@ impl Scratch {
     /// Room for two modal vectors.
     pub fn room(&mut self) -> &mut [f64] {
         &mut self.ahead
-    }
-}
-
-/// `out` += the sum of some rows, which begin at `first` in each `width` numbers of `all`, times factors, in their order: so
-/// many at a time, since `out` is read and written faster once than once for each.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn add_multiples(all: &[f64], (width, first): (usize, usize), group: &[(usize, f64); AT_ONCE], out: &mut [f64]) {
-    // Equal lengths: no bounds checks below.
-    let (count, mut rows) = (out.len(), [&[][..]; AT_ONCE]);
-    for k in 0..AT_ONCE {
-        rows[k] = &all[group[k].0 * width + first..][..count];
-    }
-    for (m, out) in out.iter_mut().enumerate() {
-        let mut sum = *out;
-        for k in 0..AT_ONCE {
-            sum += rows[k][m] * group[k].1;
-        }
-        *out = sum;
-    }
-}
-
-/// `out` += factor * row.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn add_multiple(row: &[f64], factor: f64, out: &mut [f64]) {
-    for (out, row) in out.iter_mut().zip(row) {
-        *out += row * factor;
     }
 }

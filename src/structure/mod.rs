@@ -15,7 +15,7 @@
 //! | `complex_modes.rs`, `flight_modes.rs` | where damping couples modes: their complex modes, and the motion in these |
 //! | `soil.rs` | buildings on soil: the stiffness of one, the springs of the soil |
 //! | `base_shear.rs` | the force on its base of a building on which links or soil act |
-//! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
+//! | `equations.rs`, `floor_forces.rs`, `energies.rs` | both buildings mode by mode: equation of motion, loads by forces on floors, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
 //! | `flight_work.rs`, `coupled_work.rs` | work of the ground and of damping over a whole flight, of modes by themselves and of modes that damping couples |
@@ -34,10 +34,12 @@ mod bodies;
 mod complex_modes;
 mod coupled_rates;
 mod coupled_work;
+mod energies;
 mod equations;
 mod first_mode;
 mod flight_modes;
 mod flight_work;
+mod floor_forces;
 mod floors;
 mod form;
 mod free_rows;
