@@ -8,8 +8,9 @@ pub(crate) struct Knot {
     pub slope: f64,
 }
 
-/// Step relative to the piece after which the next one would be below rounding of a value.
-const CLOSE: f64 = 1e-6;
+/// Distance from the turning point, relative to the piece, at which the search ends: so little that whatever piece is searched,
+/// the point is the same to far more digits than are kept of it.
+const CLOSE: f64 = 1e-14;
 
 /// Largest number of readings: a smooth curve takes some four.
 const MOST_READINGS: usize = 60;
@@ -50,7 +51,8 @@ pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> 
             high = x;
         }
         let next = inside(here.summit(last).0, low, high);
-        if (next - x).abs() <= CLOSE * (to.x - from.x) {
+        let [step, moved] = [next - x, x - last.x].map(|distance| (distance / (to.x - from.x)).abs());
+        if step * moved * moved <= CLOSE {
             return next;
         }
         (x, last) = (next, here);
