@@ -8,8 +8,8 @@ pub(crate) struct Knot {
     pub slope: f64,
 }
 
-/// Distance from the turning point, relative to the piece, at which the search ends: so little that whatever piece is searched,
-/// the point is the same to far more digits than are kept of it.
+/// Distance from the turning point, relative to the piece, that may be left: so little that whatever piece is searched, the
+/// point is the same to far more digits than are kept of it.
 const CLOSE: f64 = 1e-14;
 
 /// Largest number of readings: a smooth curve takes some four.
@@ -52,7 +52,8 @@ pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> 
         }
         let next = inside(here.summit(last).0, low, high);
         let [step, moved] = [next - x, x - last.x].map(|distance| (distance / (to.x - from.x)).abs());
-        if step * moved * moved <= CLOSE {
+        // The slope of a curve is off by about this from that of a cubic through two of its knots.
+        if step * (step + moved) * (step + moved) <= CLOSE {
             return next;
         }
         (x, last) = (next, here);
