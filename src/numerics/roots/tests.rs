@@ -168,3 +168,33 @@ fn a_turning_point_takes_few_readings() {
         assert!(readings <= most, "curve {k}: {readings} readings");
     }
 }
+
+/// The first 20 terms of size cos(rate (x - point)).
+fn oscillation(rate: f64, size: f64, point: f64) -> impl Iterator<Item = f64> {
+    let (sin, cos) = (rate * point).sin_cos();
+    let mut factor = size;
+    (0..20).map(move |n| {
+        factor *= if n == 0 { 1.0 } else { rate / n as f64 };
+        factor * [cos, sin, -cos, -sin][n % 4]
+    })
+}
+
+/// However much of a curve is searched, its maximum is the same to the last bit: read in the midst of a step, a peak must not
+/// be above that of the whole step.
+#[test]
+fn a_maximum_does_not_depend_on_what_follows() {
+    let shares =
+        |k: usize| [0.618_033_988_749_895, 0.754_877_666_246_693, 0.569_840_290_998_053].map(|g| k as f64 * g % 1.0);
+    for k in 0..3000 {
+        let [first, second, third] = shares(k);
+        let (point, rate) = (0.05 + 0.6 * first, 0.05 + 1.5 * second);
+        let both = oscillation(rate, 1.0, point).zip(oscillation(3.0 * rate, 0.1 * third, point));
+        let curve: Vec<f64> = both.map(|(slow, quick)| slow + quick).collect();
+        let (at, value) = highest(&curve, 0.0).unwrap();
+        for share in shares(k + 1).into_iter().chain(shares(k + 2)) {
+            let end = at + (1.0 - at) * share;
+            let (again, part) = highest_up_to(end, &curve, 0.0).unwrap();
+            assert_eq!(part.to_bits(), value.to_bits(), "case {k} up to {end}: at {again} instead of {at}");
+        }
+    }
+}

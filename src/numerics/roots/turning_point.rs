@@ -34,15 +34,15 @@ impl Knot {
     }
 }
 
-/// The x between two knots at which a curve turns that rises at the first and falls at the second, by the cubics through the
-/// two knots that were read last: the distance shrinks as the product of that of the last and the square of that of the one
-/// before. Kept inside a shrinking bracket, which is halved where a cubic leads out of it.
+/// The x between two knots at which a curve turns that rises at the first and falls at the second: first where the cubic through
+/// both does, then by inverse quadratic interpolation of the three latest slopes \[Brent1973, chapter 4\]. Values tell no more
+/// there, where a curve is flat. Kept inside a shrinking bracket, which is halved where the interpolation leads out of it.
 #[inline(always)]
 pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> Knot) -> f64 {
     let (mut low, mut high) = (from.x, to.x);
     let inside = |x: f64, low: f64, high: f64| if x >= low && x <= high { x } else { 0.5 * (low + high) };
     let mut x = inside(from.summit(to).0, low, high);
-    let mut last = if x - from.x < to.x - x { from } else { to };
+    let (mut last, mut before) = if x - from.x < to.x - x { (from, to) } else { (to, from) };
     for _ in 0..MOST_READINGS {
         let here = read(x);
         if here.slope > 0.0 {
@@ -50,13 +50,21 @@ pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> 
         } else {
             high = x;
         }
-        let next = inside(here.summit(last).0, low, high);
-        let [step, moved] = [next - x, x - last.x].map(|distance| (distance / (to.x - from.x)).abs());
-        // The slope of a curve is off by about this from that of a cubic through two of its knots.
-        if step * (step + moved) * (step + moved) <= CLOSE {
+        let next = inside(zero_of_slope([here, last, before]), low, high);
+        // The interpolation is off by about the product of the distances from its knots.
+        let distances = [here, last, before].map(|knot| (next - knot.x) / (to.x - from.x));
+        if distances.iter().product::<f64>().abs() <= CLOSE {
             return next;
         }
-        (x, last) = (next, here);
+        (x, last, before) = (next, here, last);
     }
     x
+}
+
+/// Where the slope is 0 by inverse quadratic interpolation, near the first of three knots.
+#[inline(always)]
+fn zero_of_slope([a, b, c]: [Knot; 3]) -> f64 {
+    let to_b = a.slope * c.slope / ((b.slope - a.slope) * (b.slope - c.slope));
+    let to_c = a.slope * b.slope / ((c.slope - a.slope) * (c.slope - b.slope));
+    a.x + to_b * (b.x - a.x) + to_c * (c.x - a.x)
 }
