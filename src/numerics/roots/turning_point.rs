@@ -50,10 +50,12 @@ pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> 
         } else {
             high = x;
         }
-        let next = inside(zero_of_slope([here, last, before]), low, high);
+        let knots = [here, last, before];
+        let zero = zero_of_slope(knots);
+        let next = inside(zero, low, high);
         // The interpolation is off by about the product of the distances from its knots.
-        let distances = [here, last, before].map(|knot| (next - knot.x) / (to.x - from.x));
-        if distances.iter().product::<f64>().abs() <= CLOSE {
+        let left = knots.iter().map(|knot| (next - knot.x) / (to.x - from.x)).product::<f64>().abs();
+        if next == zero && left <= CLOSE {
             return next;
         }
         (x, last, before) = (next, here, last);
