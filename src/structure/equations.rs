@@ -43,6 +43,7 @@ pub struct Structure {
     pub weight: Vec<f64>,
     /// Largest w or c of all modes, 1/s: the highest rate in the structure.
     pub fastest: f64,
+    /// Of the bodies whose damping couples modes.
     pub(super) coupling: Vec<Coupling>,
     /// What moves in flights, where that is not the modes, and how it goes with these.
     flight: Option<(FlightModes, Box<Structure>)>,
@@ -58,6 +59,7 @@ pub struct Structure {
 /// Off-diagonal damping of one body, 1/s.
 #[derive(Clone, Debug)]
 pub(super) struct Coupling {
+    /// The body's first mode.
     offset: usize,
     matrix: DMatrix<f64>,
     /// Power that it takes from velocities.

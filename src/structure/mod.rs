@@ -15,7 +15,8 @@
 //! | `complex_modes.rs`, `flight_modes.rs` | where damping couples modes: their complex modes, and the motion in these |
 //! | `soil.rs` | buildings on soil: the stiffness of one, the springs of the soil |
 //! | `base_shear.rs` | the force on its base of a building on which links or soil act |
-//! | `equations.rs`, `floor_forces.rs`, `energies.rs` | both buildings mode by mode: equation of motion, loads by forces on floors, energies |
+//! | `equations.rs` | both buildings mode by mode: equation of motion |
+//! | `floor_forces.rs`, `energies.rs` | its loads by forces on floors; energies and powers |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
 //! | `flight_work.rs`, `coupled_work.rs` | work of the ground and of damping over a whole flight, of modes by themselves and of modes that damping couples |

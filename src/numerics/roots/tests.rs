@@ -169,11 +169,11 @@ fn a_turning_point_takes_few_readings() {
     }
 }
 
-/// The first 20 terms of size cos(rate (x - point)).
+/// The first 28 terms of size cos(rate (x - point)).
 fn oscillation(rate: f64, size: f64, point: f64) -> impl Iterator<Item = f64> {
     let (sin, cos) = (rate * point).sin_cos();
     let mut factor = size;
-    (0..20).map(move |n| {
+    (0..28).map(move |n| {
         factor *= if n == 0 { 1.0 } else { rate / n as f64 };
         factor * [cos, sin, -cos, -sin][n % 4]
     })
@@ -191,6 +191,8 @@ fn a_maximum_does_not_depend_on_what_follows() {
         let both = oscillation(rate, 1.0, point).zip(oscillation(3.0 * rate, 0.1 * third, point));
         let curve: Vec<f64> = both.map(|(slow, quick)| slow + quick).collect();
         let (at, value) = highest(&curve, 0.0).unwrap();
+        let truth = 1.0 + 0.1 * third;
+        assert!((at - point).abs() < 1e-7 && (value - truth).abs() < 2e-15, "case {k}: {value} at {at}");
         for share in shares(k + 1).into_iter().chain(shares(k + 2)) {
             let end = at + (1.0 - at) * share;
             let (again, part) = highest_up_to(end, &curve, 0.0).unwrap();

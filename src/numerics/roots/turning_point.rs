@@ -22,13 +22,14 @@ impl Knot {
         Knot { value: factor * self.value, slope: factor * self.slope, ..self }
     }
 
-    /// The maximum of the cubic through two knots, (x, value); NaN where it has none.
+    /// The maximum of the cubic through two knots between which it turns, (x, value).
     #[inline(always)]
     pub(crate) fn summit(self, other: Knot) -> (f64, f64) {
         let w = other.x - self.x;
         let (first, rise, last) = (w * self.slope, other.value - self.value, w * other.slope);
         let (second, third) = (3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise);
-        let root = (second * second - 3.0 * third * first).sqrt();
+        // Below 0 by rounding alone, where it turns at a knot and is straight there.
+        let root = (second * second - 3.0 * third * first).max(0.0).sqrt();
         let s = first / (root - second);
         (self.x + w * s, self.value + s * (first + s * (second + s * third)))
     }
