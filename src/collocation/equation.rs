@@ -1,6 +1,6 @@
 //! The integral equation of a window, and its matrices for a length.
 
-use super::nodes::{Matrix, NODES, Row};
+use super::nodes::{AtNodes, Matrix, NODES};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
 use crate::contact::Force;
@@ -53,43 +53,43 @@ impl Default for Equation {
 
 /// The response of the penetration of one pair to the force of another, which is the same in both directions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Response {
+pub(crate) struct PairResponse {
     /// From node to node, of pairs in contact: on the penetration, m/N, or on its rate, m/(N s), see
     /// [`Equation::by_rates`].
     pub between: Matrix,
     /// On the penetration and on its rate at the end.
-    pub depth_end: Row,
-    pub rate_end: Row,
+    pub depth_end: AtNodes,
+    pub rate_end: AtNodes,
 }
 
 /// The motion of a pair without contact forces, m and m/s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Free {
-    pub depth: Row,
-    pub rate: Row,
+    pub depth: AtNodes,
+    pub rate: AtNodes,
     pub end: (f64, f64),
 }
 
 /// What a window is solved with.
 #[derive(Clone, Debug)]
-pub(crate) struct Workspace {
-    /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
-    responses: Vec<Response>,
+pub(crate) struct WindowWorkspace {
+    /// Pair by pair, see [`WindowWorkspace::response`], for a window of length `assembled`.
+    responses: Vec<PairResponse>,
     pub assembled: f64,
     /// See [`Equation::error_rate`].
     error_rate: f64,
     pub free: [Free; MOST_PAIRS],
 }
 
-impl Workspace {
+impl WindowWorkspace {
     /// For scenes with that many pairs.
-    pub(crate) fn new(pairs: usize) -> Workspace {
+    pub(crate) fn new(pairs: usize) -> WindowWorkspace {
         let (row, matrix) = ([0.0; NODES], [[0.0; NODES]; NODES]);
-        let response = Response { between: matrix, depth_end: row, rate_end: row };
+        let response = PairResponse { between: matrix, depth_end: row, rate_end: row };
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
         let most = pairs.min(MOST_PAIRS);
         let responses = vec![response; most * (most + 1) / 2];
-        Workspace { responses, assembled: 0.0, error_rate: 0.0, free: [free; MOST_PAIRS] }
+        WindowWorkspace { responses, assembled: 0.0, error_rate: 0.0, free: [free; MOST_PAIRS] }
     }
 
     /// Estimated error of the penetrations, m, by responses assembled for another length of the window, of which only
@@ -105,8 +105,8 @@ impl Workspace {
     }
 
     /// The response of two pairs to each other.
-    pub(crate) fn response(&self, p: usize, q: usize) -> &Response {
-        &self.responses[Workspace::index(p, q)]
+    pub(crate) fn response(&self, p: usize, q: usize) -> &PairResponse {
+        &self.responses[WindowWorkspace::index(p, q)]
     }
 }
 
@@ -147,14 +147,14 @@ impl Equation {
 
     /// The responses over a window of that length.
     #[inline(always)]
-    pub(crate) fn assemble<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
+    pub(crate) fn assemble<const N: usize>(&self, tables: &Tables, length: f64, work: &mut WindowWorkspace) {
         (work.assembled, work.error_rate) = (length, self.error_rate(length));
         let by_rates = self.by_rates();
         for p in 0..self.pairs {
             for q in 0..self.closed.min(p + 1) {
                 let (depth, rate) = self.factors(p, q, length);
                 let count = self.count_over(p, &depth, length);
-                let response = &mut work.responses[Workspace::index(p, q)];
+                let response = &mut work.responses[WindowWorkspace::index(p, q)];
                 response.depth_end = combined::<N>(&tables.whole[1..], &depth[..count]);
                 response.rate_end = combined::<N>(&tables.whole, &rate[..count]);
                 if p < self.closed {
@@ -168,7 +168,7 @@ impl Equation {
 
     /// The motion without contact forces over a window of that length: rates where they are asked for, and the end.
     #[inline(always)]
-    pub(crate) fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
+    pub(crate) fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut WindowWorkspace) {
         let x = length / self.scale;
         let mut at = NOTHING;
         for (at, theta) in at.iter_mut().zip(fours(&tables.theta)).take(N / 4) {

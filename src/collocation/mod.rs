@@ -18,10 +18,10 @@ mod rows;
 mod solve;
 mod tables;
 
-pub(crate) use equation::{Equation, MOST_PAIRS, Workspace};
-pub(crate) use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
+pub(crate) use equation::{Equation, MOST_PAIRS, WindowWorkspace};
+pub(crate) use nodes::{AtNodes, NODES, NodeCount, Nodes, dot, nodes};
 pub(crate) use rows::fours;
-pub(crate) use solve::{Ending, Frame, Solution};
+pub(crate) use solve::{Ending, Frame, SolvedWindow};
 pub(crate) use tables::{Kernel, Map, POWERS, Tables};
 
 #[cfg(test)]

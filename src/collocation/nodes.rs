@@ -7,35 +7,35 @@ use std::sync::OnceLock;
 pub(crate) const NODES: usize = 16;
 
 /// A number at each node; 0 beyond those of the rule.
-pub(crate) type Row = [f64; NODES];
+pub(crate) type AtNodes = [f64; NODES];
 
 /// A number for each two nodes, column by column: entry `[j][i]` is what node j adds at node i.
-pub(super) type Matrix = [Row; NODES];
+pub(super) type Matrix = [AtNodes; NODES];
 
 /// How many nodes a window has: sixteen for long ones, fewer for those that samples of the record or events cut short.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Rule {
+pub(crate) enum NodeCount {
     Eight,
     Twelve,
     #[default]
     Sixteen,
 }
 
-impl Rule {
-    pub(crate) const ALL: [Rule; 3] = [Rule::Eight, Rule::Twelve, Rule::Sixteen];
+impl NodeCount {
+    pub(crate) const ALL: [NodeCount; 3] = [NodeCount::Eight, NodeCount::Twelve, NodeCount::Sixteen];
 
     /// Number of nodes.
     pub(crate) const fn count(self) -> usize {
         match self {
-            Rule::Eight => 8,
-            Rule::Twelve => 12,
-            Rule::Sixteen => NODES,
+            NodeCount::Eight => 8,
+            NodeCount::Twelve => 12,
+            NodeCount::Sixteen => NODES,
         }
     }
 
     /// With more nodes, if there is one.
-    pub(crate) fn next(self) -> Option<Rule> {
-        Rule::ALL.get(self as usize + 1).copied()
+    pub(crate) fn next(self) -> Option<NodeCount> {
+        NodeCount::ALL.get(self as usize + 1).copied()
     }
 }
 
@@ -72,11 +72,11 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 pub(crate) struct Nodes {
     pub count: usize,
     /// x of each node in 0..=1.
-    pub x: Row,
+    pub x: AtNodes,
     /// Its weight.
-    pub weight: Row,
+    pub weight: AtNodes,
     /// Row n: the factors of the values in the coefficient of the Legendre polynomial P_n(2 x - 1).
-    pub legendre: [Row; NODES],
+    pub legendre: [AtNodes; NODES],
     /// The same, column by column.
     to_legendre: Matrix,
     /// Derivatives by x at the nodes of the polynomial through values at them.
@@ -85,7 +85,7 @@ pub(crate) struct Nodes {
 
 /// Sum of products in a fixed order.
 #[inline(always)]
-pub(crate) fn dot(a: &Row, b: &Row) -> f64 {
+pub(crate) fn dot(a: &AtNodes, b: &AtNodes) -> f64 {
     let mut sum = [0.0; 4];
     for (a, b) in a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0) {
         for i in 0..4 {
@@ -96,7 +96,7 @@ pub(crate) fn dot(a: &Row, b: &Row) -> f64 {
 }
 
 /// Those of a rule, computed once.
-pub(crate) fn nodes(rule: Rule) -> &'static Nodes {
+pub(crate) fn nodes(rule: NodeCount) -> &'static Nodes {
     static OF_RULES: [OnceLock<Nodes>; 3] = [const { OnceLock::new() }; 3];
     OF_RULES[rule as usize].get_or_init(|| Nodes::compute(rule.count()))
 }
@@ -131,13 +131,13 @@ impl Nodes {
 
     /// Coefficient n of the Legendre series through values at the nodes.
     #[inline(always)]
-    pub(crate) fn coefficient(&self, values: &Row, n: usize) -> f64 {
+    pub(crate) fn coefficient(&self, values: &AtNodes, n: usize) -> f64 {
         dot(values, &self.legendre[n])
     }
 
     /// The polynomial through values at the nodes.
     #[inline(always)]
-    pub(crate) fn interpolant(&self, values: &Row) -> Interpolant {
+    pub(crate) fn interpolant(&self, values: &AtNodes) -> Interpolant {
         let mut legendre = [0.0; NODES];
         for (column, value) in self.to_legendre.iter().zip(values).take(self.count) {
             for (c, share) in legendre.iter_mut().zip(column) {
@@ -162,7 +162,7 @@ const RECURRENCE: [(f64, f64); NODES] = {
 /// A polynomial through values at nodes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interpolant {
-    legendre: Row,
+    legendre: AtNodes,
     count: usize,
 }
 

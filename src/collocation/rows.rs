@@ -1,6 +1,6 @@
 //! Arithmetic on numbers at the first N nodes, the same with wide instructions and without.
 
-use super::nodes::{Matrix, NODES, Row};
+use super::nodes::{AtNodes, Matrix, NODES};
 use crate::contact::Force;
 use crate::numerics::polynomial::{SECOND, each, larger};
 
@@ -15,12 +15,12 @@ pub(super) type Fours = [[f64; 4]; NODES / 4];
 pub(super) const NOTHING: Fours = [[0.0; 4]; NODES / 4];
 
 #[inline(always)]
-pub(crate) fn fours(row: &Row) -> &[[f64; 4]] {
+pub(crate) fn fours(row: &AtNodes) -> &[[f64; 4]] {
     row.as_chunks::<4>().0
 }
 
 #[inline(always)]
-pub(super) fn fours_mut(row: &mut Row) -> &mut [[f64; 4]] {
+pub(super) fn fours_mut(row: &mut AtNodes) -> &mut [[f64; 4]] {
     row.as_chunks_mut::<4>().0
 }
 
@@ -44,7 +44,7 @@ pub(super) fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &
 }
 
 #[inline(always)]
-pub(super) fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
+pub(super) fn combined<const N: usize>(rows: &[AtNodes], factors: &[f64]) -> AtNodes {
     let mut sum = NOTHING;
     for (row, factor) in rows.iter().zip(factors) {
         for (sum, row) in sum.iter_mut().zip(fours(row)).take(N / 4) {
@@ -56,13 +56,13 @@ pub(super) fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
 
 /// A matrix times values.
 #[inline(always)]
-pub(super) fn product<const N: usize>(matrix: &Matrix, values: &Row) -> Fours {
+pub(super) fn product<const N: usize>(matrix: &Matrix, values: &AtNodes) -> Fours {
     add_product::<N>(&NOTHING, matrix, values)
 }
 
 /// Numbers and a matrix times values.
 #[inline(always)]
-pub(super) fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &Row) -> Fours {
+pub(super) fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &AtNodes) -> Fours {
     let mut sum = *to;
     match N {
         // Half of them at a time: the compiler keeps no more sums in wide registers.
@@ -78,7 +78,7 @@ pub(super) fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &
 
 /// Enters some fours of a product; every other column by itself, so that no sum waits for the one before.
 #[inline(always)]
-fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, matrix: &Matrix, values: &Row) {
+fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, matrix: &Matrix, values: &AtNodes) {
     let to = &mut to[first..first + FOURS];
     let (mut even, mut odd) = ([[0.0; 4]; FOURS], [[0.0; 4]; FOURS]);
     even.copy_from_slice(to);
@@ -96,7 +96,7 @@ fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, ma
 
 /// Forces of penetrations and rates; none where floors are apart.
 #[inline(always)]
-pub(super) fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
+pub(super) fn forces<const N: usize>(force: &Force, depth: &AtNodes, rate: &AtNodes, out: &mut AtNodes) {
     let all = fours_mut(out).iter_mut().zip(fours(depth)).zip(fours(rate)).take(N / 4);
     match *force {
         Force::Power { stiffness, exponent: 1.5, damping: 0.0 } => {
@@ -138,7 +138,7 @@ fn inside(depth: &[f64; 4]) -> [f64; 4] {
 
 /// Values of a polynomial at N points.
 #[inline(always)]
-pub(super) fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
+pub(super) fn value<const N: usize>(terms: &[f64], x: &Fours) -> AtNodes {
     let mut value = NOTHING;
     for (value, x) in value.iter_mut().zip(x).take(N / 4) {
         *value = terms.iter().rev().fold([0.0; 4], |value, term| each(|i| value[i] * x[i] + term));
@@ -148,7 +148,7 @@ pub(super) fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
 
 /// Values and derivatives by t of a polynomial in x = t / scale.
 #[inline(always)]
-pub(super) fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row) {
+pub(super) fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (AtNodes, AtNodes) {
     let (mut value, mut rate) = (NOTHING, NOTHING);
     let per_second = 1.0 / scale;
     for ((value, rate), x) in value.iter_mut().zip(&mut rate).zip(x).take(N / 4) {
@@ -161,7 +161,7 @@ pub(super) fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (R
 }
 
 #[inline(always)]
-pub(super) fn row(fours: &Fours) -> Row {
+pub(super) fn row(fours: &Fours) -> AtNodes {
     let mut row = [0.0; NODES];
     fours_mut(&mut row).copy_from_slice(fours);
     row

@@ -4,8 +4,8 @@
 //! A sweep is an integral over time twice, so errors fall like the terms of the series of a cosine: faster and faster.
 //! Where a window ends with an event, its length is an unknown too and is corrected in between.
 
-use super::equation::{Equation, MOST_PAIRS, Workspace};
-use super::nodes::{NODES, Row, Rule, dot, nodes};
+use super::equation::{Equation, MOST_PAIRS, WindowWorkspace};
+use super::nodes::{AtNodes, NODES, NodeCount, dot, nodes};
 use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, product, row, second_derivative};
 use super::tables::{Map, Tables};
 use crate::numerics::polynomial::{each, larger};
@@ -40,7 +40,7 @@ impl Ending {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub map: Map,
-    pub rule: Rule,
+    pub rule: NodeCount,
     /// s; roughly where it ends with an event.
     pub length: f64,
     pub ending: Ending,
@@ -48,27 +48,33 @@ pub(crate) struct Frame {
 
 /// A solved window.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Solution {
+pub(crate) struct SolvedWindow {
     /// Of the time.
     pub map: Map,
     /// Its nodes.
-    pub rule: Rule,
+    pub rule: NodeCount,
     /// s.
     pub length: f64,
     /// m, at the nodes.
-    pub depth: [Row; MOST_PAIRS],
+    pub depth: [AtNodes; MOST_PAIRS],
     /// m/s; of pairs whose force is damped.
-    pub rate: [Row; MOST_PAIRS],
+    pub rate: [AtNodes; MOST_PAIRS],
     /// N.
-    pub force: [Row; MOST_PAIRS],
+    pub force: [AtNodes; MOST_PAIRS],
     /// Penetration, m, and rate, m/s, at the end.
     pub end: [(f64, f64); MOST_PAIRS],
 }
 
-impl Solution {
+impl SolvedWindow {
     /// Solves an equation over a window until penetrations are right within `tolerance`, m; whether a solution has been
     /// found.
-    pub(crate) fn solve(&mut self, equation: &Equation, work: &mut Workspace, frame: Frame, tolerance: f64) -> bool {
+    pub(crate) fn solve(
+        &mut self,
+        equation: &Equation,
+        work: &mut WindowWorkspace,
+        frame: Frame,
+        tolerance: f64,
+    ) -> bool {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
         let (all, count) = (equation.pairs, frame.rule.count());
         let rows = self.depth[..all].iter_mut().chain(&mut self.rate[..all]).chain(&mut self.force[..all]);
@@ -139,7 +145,7 @@ impl Solution {
 
     /// Penetrations from forces, pair by pair, and forces from these; the largest change of a penetration, m.
     #[inline(always)]
-    fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &Workspace) -> f64 {
+    fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &WindowWorkspace) -> f64 {
         // The length may have changed since the responses were assembled: they go as its square and as itself.
         let ratio = self.length / work.assembled;
         let mut changes = [0.0; 4];
@@ -173,7 +179,7 @@ impl Solution {
 
     /// Penetrations and rates at the end, of all pairs or of one.
     #[inline(always)]
-    fn close(&mut self, equation: &Equation, work: &Workspace, only: Option<usize>) {
+    fn close(&mut self, equation: &Equation, work: &WindowWorkspace, only: Option<usize>) {
         let ratio = self.length / work.assembled;
         for p in only.map_or(0..equation.pairs, |p| p..p + 1) {
             let (mut d, mut v) = (0.0, 0.0);
@@ -189,7 +195,7 @@ impl Solution {
 
     /// Penetrations of the watched pairs at the nodes.
     #[inline(always)]
-    fn watch<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &Workspace) {
+    fn watch<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &WindowWorkspace) {
         for p in equation.closed..equation.pairs {
             let mut taken = NOTHING;
             for q in 0..equation.closed {
@@ -216,28 +222,28 @@ impl Solution {
     }
 }
 
-/// See [`Solution::solve`].
+/// See [`SolvedWindow::solve`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn iterate_by_rule(
-    solution: &mut Solution,
+    solution: &mut SolvedWindow,
     equation: &Equation,
-    work: &mut Workspace,
+    work: &mut WindowWorkspace,
     ending: Ending,
     tolerance: f64,
 ) -> bool {
     match solution.rule {
-        Rule::Eight => iterate::<{ Rule::Eight.count() }>(solution, equation, work, ending, tolerance),
-        Rule::Twelve => iterate::<{ Rule::Twelve.count() }>(solution, equation, work, ending, tolerance),
-        Rule::Sixteen => iterate::<{ Rule::Sixteen.count() }>(solution, equation, work, ending, tolerance),
+        NodeCount::Eight => iterate::<{ NodeCount::Eight.count() }>(solution, equation, work, ending, tolerance),
+        NodeCount::Twelve => iterate::<{ NodeCount::Twelve.count() }>(solution, equation, work, ending, tolerance),
+        NodeCount::Sixteen => iterate::<{ NodeCount::Sixteen.count() }>(solution, equation, work, ending, tolerance),
     }
 }
 
 /// With N nodes.
 #[inline(always)]
 fn iterate<const N: usize>(
-    solution: &mut Solution,
+    solution: &mut SolvedWindow,
     equation: &Equation,
-    work: &mut Workspace,
+    work: &mut WindowWorkspace,
     ending: Ending,
     tolerance: f64,
 ) -> bool {

@@ -1,6 +1,6 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
-use super::nodes::{Matrix, NODES, Nodes, Row, Rule, nodes, rule};
+use super::nodes::{AtNodes, Matrix, NODES, NodeCount, Nodes, nodes, rule};
 use super::rows::{NOTHING, fours, row};
 use crate::numerics::polynomial::each;
 use crate::structure::RESPONSE_POWERS;
@@ -91,21 +91,21 @@ impl Map {
 /// The integrals of one map and rule.
 pub(crate) struct Tables {
     /// theta of each node.
-    pub theta: Row,
+    pub theta: AtNodes,
     /// theta / (d theta / dx): by how much x of an instant falls per relative growth of the window.
-    pub lag: Row,
+    pub lag: AtNodes,
     /// d theta / dx there, times the weight of the node.
-    pub weight: Row,
+    pub weight: AtNodes,
     /// Of power k: the integral over 0..x_i of (theta_i - theta)^k l_j(x) theta' dx.
     pub inner: [Matrix; POWERS],
     /// The same over the whole window.
-    pub whole: [Row; POWERS],
+    pub whole: [AtNodes; POWERS],
 }
 
 impl Tables {
     /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is
     /// unloaded.
-    pub(crate) fn of(map: Map, rule: Rule) -> &'static Tables {
+    pub(crate) fn of(map: Map, rule: NodeCount) -> &'static Tables {
         place(map, rule).get_or_init(|| compute(map, &Fine::new(rule, self::rule(FINE))))
     }
 
@@ -113,7 +113,7 @@ impl Tables {
     pub(crate) fn prepare(maps: &[Map]) {
         let is_missing = |map: Map, rule| place(map, rule).get().is_none();
         let mut points = Vec::new();
-        for rule in Rule::ALL.into_iter().filter(|rule| maps.iter().any(|map| is_missing(*map, *rule))) {
+        for rule in NodeCount::ALL.into_iter().filter(|rule| maps.iter().any(|map| is_missing(*map, *rule))) {
             if points.is_empty() {
                 points = self::rule(FINE);
             }
@@ -129,14 +129,14 @@ impl Tables {
     pub(crate) fn count() -> usize {
         Map::ALL
             .into_iter()
-            .flat_map(|map| Rule::ALL.map(|rule| place(map, rule)))
+            .flat_map(|map| NodeCount::ALL.map(|rule| place(map, rule)))
             .filter(|one| one.get().is_some())
             .count()
     }
 }
 
 /// Where the tables of a map and a rule are kept.
-fn place(map: Map, rule: Rule) -> &'static OnceLock<Tables> {
+fn place(map: Map, rule: NodeCount) -> &'static OnceLock<Tables> {
     static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
     &ALL[rule as usize][map as usize]
 }
@@ -147,15 +147,15 @@ const FINE: usize = (NODES + 4 + 5 * POWERS) / 2 + 1;
 
 /// A fine rule from 0 to each node and to 1, with the polynomials l_j that are 1 at node j and 0 at the others.
 struct Fine {
-    rule: Rule,
+    rule: NodeCount,
     /// Points and weights on 0..=1.
     points: Vec<(f64, f64)>,
     /// Of each end, the polynomials at each point.
-    basis: Vec<[Row; FINE]>,
+    basis: Vec<[AtNodes; FINE]>,
 }
 
 impl Fine {
-    fn new(rule: Rule, points: Vec<(f64, f64)>) -> Fine {
+    fn new(rule: NodeCount, points: Vec<(f64, f64)>) -> Fine {
         let nodes = nodes(rule);
         let mut basis = vec![[[0.0; NODES]; FINE]; nodes.count + 1];
         basis.iter_mut().enumerate().for_each(|(i, basis)| fill_basis(nodes, end(nodes, i), &points, basis));
@@ -170,7 +170,7 @@ fn end(nodes: &Nodes, i: usize) -> f64 {
 
 /// The polynomials at the points of a rule up to an end.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fill_basis(nodes: &Nodes, end: f64, points: &[(f64, f64)], all: &mut [Row; FINE]) {
+fn fill_basis(nodes: &Nodes, end: f64, points: &[(f64, f64)], all: &mut [AtNodes; FINE]) {
     for (all, (y, _)) in all.iter_mut().zip(points) {
         let z = 2.0 * (end * y) - 1.0;
         let (mut last, mut before, mut sum) = (1.0, 0.0, NOTHING);
@@ -213,9 +213,9 @@ fn compute(map: Map, fine: &Fine) -> Tables {
         }
         for k in 0..POWERS {
             let integrals = match fine.rule {
-                Rule::Eight => integrals::<{ Rule::Eight.count() }>(&shares, basis),
-                Rule::Twelve => integrals::<{ Rule::Twelve.count() }>(&shares, basis),
-                Rule::Sixteen => integrals::<{ Rule::Sixteen.count() }>(&shares, basis),
+                NodeCount::Eight => integrals::<{ NodeCount::Eight.count() }>(&shares, basis),
+                NodeCount::Twelve => integrals::<{ NodeCount::Twelve.count() }>(&shares, basis),
+                NodeCount::Sixteen => integrals::<{ NodeCount::Sixteen.count() }>(&shares, basis),
             };
             match i < nodes.count {
                 true => tables.inner[k].iter_mut().zip(&integrals).for_each(|(column, integral)| column[i] = *integral),
@@ -229,9 +229,9 @@ fn compute(map: Map, fine: &Fine) -> Tables {
 
 /// The sum of shares times polynomials.
 #[inline(always)]
-fn integrals<const N: usize>(shares: &[f64; FINE], basis: &[Row; FINE]) -> Row {
+fn integrals<const N: usize>(shares: &[f64; FINE], basis: &[AtNodes; FINE]) -> AtNodes {
     let mut sum = NOTHING;
-    let mut add = |share: f64, basis: &Row| {
+    let mut add = |share: f64, basis: &AtNodes| {
         for (sum, basis) in sum.iter_mut().zip(fours(basis)).take(N / 4) {
             *sum = each(|i| sum[i] + share * basis[i]);
         }
@@ -265,7 +265,7 @@ mod tests {
     /// The integral of (theta_1 - theta)^k theta^m over 0..theta_1 is m! k! / (m + k + 1)! theta_1^(m + k + 1).
     #[test]
     fn powers_of_the_time_are_integrated_to_rounding() {
-        for (map, rule) in Map::ALL.into_iter().flat_map(|map| Rule::ALL.map(|rule| (map, rule))) {
+        for (map, rule) in Map::ALL.into_iter().flat_map(|map| NodeCount::ALL.map(|rule| (map, rule))) {
             let (tables, count) = (Tables::of(map, rule), rule.count());
             for k in 0..POWERS {
                 // Of polynomials in x of a degree that the nodes hold.

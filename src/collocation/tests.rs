@@ -14,14 +14,21 @@ fn free_mass(mass: f64, force: Force, d: f64, v: f64, omega: f64, scale: f64) ->
     equation
 }
 
-fn solved(equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
-    solved_by(Rule::Sixteen, equation, map, length, ending, tolerance)
+fn solved(equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> SolvedWindow {
+    solved_by(NodeCount::Sixteen, equation, map, length, ending, tolerance)
 }
 
-fn solved_by(rule: Rule, equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
-    let mut solution = Solution::default();
+fn solved_by(
+    rule: NodeCount,
+    equation: &Equation,
+    map: Map,
+    length: f64,
+    ending: Ending,
+    tolerance: f64,
+) -> SolvedWindow {
+    let mut solution = SolvedWindow::default();
     assert!(
-        solution.solve(equation, &mut Workspace::new(2), Frame { map, rule, length, ending }, tolerance),
+        solution.solve(equation, &mut WindowWorkspace::new(2), Frame { map, rule, length, ending }, tolerance),
         "{map:?} {length} {ending:?}"
     );
     solution
@@ -58,8 +65,8 @@ fn windows_of_fewer_nodes_take_a_hertz_impact_in_more_steps() {
     let exact = 2.0 * libm::pow(1.25, 0.4) * std::f64::consts::PI.sqrt() * libm::tgamma(1.4) / libm::tgamma(0.9);
     let force = Force::Power { stiffness: k, exponent: 1.5, damping: 0.0 };
     for (rule, ends) in [
-        (Rule::Eight, &[0.1, 0.2, 0.4, 0.7, 1.1, 1.6, 2.1, 2.5, 2.8, 3.0, 3.1][..]),
-        (Rule::Twelve, &[0.5, 1.1, 1.8, 2.6]),
+        (NodeCount::Eight, &[0.1, 0.2, 0.4, 0.7, 1.1, 1.6, 2.1, 2.5, 2.8, 3.0, 3.1][..]),
+        (NodeCount::Twelve, &[0.5, 1.1, 1.8, 2.6]),
     ] {
         let entry = free_mass(m, force, 0.0, v, 1.0 / unit, 2.0 * unit);
         let mut window = solved_by(rule, &entry, Map::SquareStart, ends[0] * unit, Ending::Given, 1e-16);
@@ -154,7 +161,7 @@ fn a_watched_pair_ends_a_window_when_it_touches() {
     (equation.free[1][0], equation.free[1][1]) = (-1e-3, 0.4 * equation.scale);
     let window = solved(&equation, Map::Plain, 2e-3, Ending::Touch(1), 1e-16);
     assert!((window.length - 2.5e-3).abs() < 1e-15, "{}", window.length);
-    for (theta, d) in Tables::of(Map::Plain, Rule::Sixteen).theta.iter().zip(&window.depth[1]) {
+    for (theta, d) in Tables::of(Map::Plain, NodeCount::Sixteen).theta.iter().zip(&window.depth[1]) {
         assert!((d - (0.4 * theta * window.length - 1e-3)).abs() < 1e-17, "{d}");
     }
 }
@@ -164,7 +171,7 @@ fn a_watched_pair_ends_a_window_when_it_touches() {
 fn a_polynomial_comes_back_from_its_values() {
     let polynomial = |x: f64| (0..16).map(|n| libm::pow(x - 0.3, f64::from(n)) * f64::from(n - 7)).sum::<f64>();
     let slope = |x: f64| (1..16).map(|n| f64::from(n * (n - 7)) * libm::pow(x - 0.3, f64::from(n - 1))).sum::<f64>();
-    let nodes = nodes(Rule::Sixteen);
+    let nodes = nodes(NodeCount::Sixteen);
     let interpolant = nodes.interpolant(&nodes.x.map(polynomial));
     for x in [0.0, 0.01, 0.37, 0.99, 1.0] {
         let ([value], Knot { value: same, slope: rate, .. }) = (interpolant.at(&[x]), interpolant.knot(x));

@@ -4,7 +4,7 @@
 //! scratch vectors hold nothing, and all that follows from the scene is in the model.
 
 use crate::contact::EpisodeForce;
-use crate::engine::base::contact::Phase;
+use crate::engine::base::contact::ContactPhase;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
@@ -175,9 +175,9 @@ impl Model {
             let approach = contact.episode.approach_velocity.max(self.system.least_approach);
             let is_law = |approach| contact.force == EpisodeForce::new(&pair.law, pair.mass, approach);
             let fits = match contact.phase {
-                Phase::Apart => true,
-                Phase::Held => pair.law.is_rigid(),
-                Phase::Engaged | Phase::Slack => !pair.law.is_rigid(),
+                ContactPhase::Apart => true,
+                ContactPhase::Held => pair.law.is_rigid(),
+                ContactPhase::Engaged | ContactPhase::Slack => !pair.law.is_rigid(),
             };
             let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED && contact.age >= 0.0;
             if !(fits && is_known && (is_law(None) || is_law(Some(approach)))) {

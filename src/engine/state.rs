@@ -1,6 +1,6 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
-use crate::collocation::Workspace as WindowWorkspace;
+use crate::collocation::WindowWorkspace;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;

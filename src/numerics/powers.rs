@@ -48,7 +48,7 @@ impl Default for Powers {
 
 /// A polynomial evaluated at x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
+pub struct Evaluation {
     /// Its value.
     pub value: f64,
     /// Its derivative.
@@ -130,7 +130,7 @@ impl Powers {
     }
 
     /// Value and slope at x, and a bound on the fourth derivative over 0..=x.
-    pub fn read(&self, polynomial: &Coefficients) -> Reading {
+    pub fn read(&self, polynomial: &Coefficients) -> Evaluation {
         let (mut value, mut slope, mut fourth) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         let [c, v, s, f] = [polynomial, &self.value, &self.slope, &self.fourth].map(|table| self.blocks_of(table));
         for k in (0..c.len()).rev() {
@@ -140,7 +140,7 @@ impl Powers {
                 fourth[i] += c[k][i].abs() * f[k][i];
             }
         }
-        Reading { value: total(value), slope: total(slope), fourth: total(fourth) }
+        Evaluation { value: total(value), slope: total(slope), fourth: total(fourth) }
     }
 
     /// Integral over 0..=x.

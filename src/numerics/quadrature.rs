@@ -1,10 +1,10 @@
 //! Gauss-Legendre quadrature, also with nodes graded towards the start of the interval.
 
 /// Half of a symmetric rule: nodes on 0..1 and their weights [AbramowitzStegun1964, table 25.4].
-pub(crate) type Rule = [(f64, f64)];
+pub(crate) type HalfRule = [(f64, f64)];
 
 /// 8 points, exact up to degree 15: for the smooth motion in flight.
-pub(crate) const EIGHT: &Rule = &[
+pub(crate) const EIGHT: &HalfRule = &[
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
@@ -12,7 +12,7 @@ pub(crate) const EIGHT: &Rule = &[
 ];
 
 /// 12 points, exact up to degree 23: for steps in contact, which are as long as their series allow.
-pub(crate) const TWELVE: &Rule = &[
+pub(crate) const TWELVE: &HalfRule = &[
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
     (0.587_317_954_286_617_5, 0.203_167_426_723_065_9),
@@ -35,7 +35,7 @@ pub(crate) const TWELVE_POINTS: [(f64, f64); 12] = {
 };
 
 /// Points and weights for the integral over 0..=length.
-pub(crate) fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
+pub(crate) fn gauss(rule: &HalfRule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     let half = 0.5 * length;
     rule.iter()
         .flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)])
@@ -44,7 +44,7 @@ pub(crate) fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)
 
 /// Points and weights for the integral over 0..=length by quadrature in s with t = s^4. Accurate where the integrand is
 /// a series in quarter powers of t, as after an entry under a law with d^(1/4), or in whole powers of t.
-pub(crate) fn graded(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
+pub(crate) fn graded(rule: &HalfRule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     gauss(rule, length.sqrt().sqrt()).map(|(s, weight)| {
         let cube = s * s * s;
         (cube * s, 4.0 * cube * weight)

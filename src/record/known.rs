@@ -10,11 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug)]
 pub struct KnownRecords {
     most: usize,
-    known: Mutex<VecDeque<Known>>,
+    known: Mutex<VecDeque<KnownRecord>>,
 }
 
 #[derive(Debug)]
-struct Known {
+struct KnownRecord {
     channel: Option<usize>,
     bytes: Vec<u8>,
     record: Arc<Record>,
@@ -32,14 +32,14 @@ impl KnownRecords {
     /// As [`Record::parse`].
     pub fn read(&self, file: RecordFile) -> Result<Arc<Record>, RecordError> {
         let latest = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_same = |known: &&Known| known.channel == file.channel && known.bytes == file.bytes;
+        let is_same = |known: &&KnownRecord| known.channel == file.channel && known.bytes == file.bytes;
         if let Some(known) = latest().iter().find(is_same) {
             return Ok(Arc::clone(&known.record));
         }
         let record = Arc::new(file.parse()?.record);
         let mut latest = latest();
         latest.truncate(self.most - 1);
-        latest.push_front(Known { channel: file.channel, bytes: file.bytes, record: Arc::clone(&record) });
+        latest.push_front(KnownRecord { channel: file.channel, bytes: file.bytes, record: Arc::clone(&record) });
         Ok(record)
     }
 }

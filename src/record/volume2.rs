@@ -19,7 +19,7 @@ const RECORDER: usize = 34;
 
 /// Whether a text has a block of this kind.
 pub(super) fn is_it(text: &str) -> bool {
-    text.lines().take(MOST_HEADER_LINES).any(|line| Block::read(line).is_some())
+    text.lines().take(MOST_HEADER_LINES).any(|line| SampleBlock::read(line).is_some())
 }
 
 /// Whether a text begins as such a file does, which may have been cut off within its headers.
@@ -70,7 +70,7 @@ fn unknown(channels: &[Channel<'_>], number: Option<usize>, others: usize) -> St
 }
 
 /// The line that stands before a block of samples.
-struct Block<'t> {
+struct SampleBlock<'t> {
     count: usize,
     /// s; in COSMOS files the real header has it.
     step: Option<&'t str>,
@@ -81,10 +81,10 @@ struct Block<'t> {
     columns: Option<Columns>,
 }
 
-impl<'t> Block<'t> {
+impl<'t> SampleBlock<'t> {
     /// `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)`, or
     /// `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)`.
-    fn read(line: &'t str) -> Option<Block<'t>> {
+    fn read(line: &'t str) -> Option<SampleBlock<'t>> {
         let line = line.trim();
         // All but few lines begin with a sign, a point or a letter, or end with a digit.
         if !line.starts_with(|c: char| c.is_ascii_digit()) || line.len() > 200 {
@@ -99,7 +99,7 @@ impl<'t> Block<'t> {
             return None;
         }
         let unit = after("units").or_else(|| after(" in ")).unwrap_or_default();
-        Some(Block {
+        Some(SampleBlock {
             count: count.parse().ok()?,
             step: after("equally spaced at").filter(|_| is_csmip).and_then(|rest| rest.split_whitespace().next()),
             unit: unit.trim_start_matches(|c: char| " :=".contains(c)).split(['(', ')', ',', ';']).next()?.trim(),
@@ -116,7 +116,7 @@ struct Channel<'t> {
     label: String,
     number: Option<usize>,
     about: String,
-    block: Block<'t>,
+    block: SampleBlock<'t>,
     /// That of the block.
     line: usize,
     /// The real numbers of a COSMOS header.
@@ -135,7 +135,7 @@ impl<'t> Found<'t> {
         let mut found = Found { channels: Vec::new(), others: 0 };
         let mut header: Vec<(usize, &str)> = Vec::new();
         for (number, line) in numbered(text) {
-            match Block::read(line) {
+            match SampleBlock::read(line) {
                 Some(block) if block.is_acceleration => {
                     found.channels.push(Channel::new(&header, block, number));
                     header.clear();
@@ -159,7 +159,7 @@ fn is_end(line: &str) -> bool {
 }
 
 impl<'t> Channel<'t> {
-    fn new(header: &[(usize, &str)], block: Block<'t>, line: usize) -> Channel<'t> {
+    fn new(header: &[(usize, &str)], block: SampleBlock<'t>, line: usize) -> Channel<'t> {
         let label = header.iter().find_map(|(_, line)| channel_label(line)).unwrap_or_default();
         let digits = label.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit);
         let station = header.iter().find(|(_, line)| {
@@ -215,7 +215,7 @@ impl<'t> Channel<'t> {
         lines.by_ref().take(usize::from(own.is_some())).for_each(drop);
         let columns = self.block.columns.or_else(|| Columns::find(own?)).unwrap_or(USUAL);
         for (number, line) in lines {
-            if is_end(line) || Block::read(line).is_some() {
+            if is_end(line) || SampleBlock::read(line).is_some() {
                 return;
             }
             let values = columns.values(line, fortran_number);

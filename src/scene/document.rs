@@ -48,7 +48,7 @@ pub(super) fn parse(text: &str) -> Result<DeTable<'_>, SceneError> {
 }
 
 /// Where a value stands in the text, in bytes.
-pub(super) struct Span {
+pub(super) struct TextSpan {
     /// Of its key, where it has one.
     pub start: usize,
     /// Of the value, where that is a number, a text or a list: tables may be spread over the file.
@@ -56,22 +56,22 @@ pub(super) struct Span {
 }
 
 /// Where everything stands, by its path.
-pub(super) fn spans(table: &DeTable<'_>) -> HashMap<String, Span> {
-    fn of_table(path: &str, table: &DeTable<'_>, spans: &mut HashMap<String, Span>) {
+pub(super) fn spans(table: &DeTable<'_>) -> HashMap<String, TextSpan> {
+    fn of_table(path: &str, table: &DeTable<'_>, spans: &mut HashMap<String, TextSpan>) {
         for (key, value) in table.iter() {
             let path = join(path, key.get_ref());
             of_value(&path, value, spans);
-            spans.insert(path, Span { start: key.span().start, value: text_of(value) });
+            spans.insert(path, TextSpan { start: key.span().start, value: text_of(value) });
         }
     }
-    fn of_value(path: &str, value: &Spanned<DeValue<'_>>, spans: &mut HashMap<String, Span>) {
+    fn of_value(path: &str, value: &Spanned<DeValue<'_>>, spans: &mut HashMap<String, TextSpan>) {
         match value.get_ref() {
             DeValue::Table(table) => of_table(path, table, spans),
             DeValue::Array(entries) => {
                 for (i, entry) in entries.iter().enumerate() {
                     let path = format!("{path}[{}]", i + 1);
                     of_value(&path, entry, spans);
-                    spans.insert(path, Span { start: entry.span().start, value: text_of(entry) });
+                    spans.insert(path, TextSpan { start: entry.span().start, value: text_of(entry) });
                 }
             }
             _ => {}
@@ -86,7 +86,7 @@ pub(super) fn spans(table: &DeTable<'_>) -> HashMap<String, Span> {
 }
 
 /// Where a path begins in the text, or the nearest table above it that there is.
-pub(super) fn place(path: &str, spans: &HashMap<String, Span>) -> Option<usize> {
+pub(super) fn place(path: &str, spans: &HashMap<String, TextSpan>) -> Option<usize> {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
     let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
     from_whole_to_root.find_map(|part| Some(spans.get(part)?.start))

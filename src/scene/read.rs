@@ -1,7 +1,7 @@
 //! The keys of a scene file, one after the other.
 
 use super::data::{Building, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
-use super::document::{self, Document, Item, KEY, Section, Span};
+use super::document::{self, Document, Item, KEY, Section, TextSpan};
 use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
@@ -76,7 +76,7 @@ fn tell_of_facing(problems: &mut Vec<Problem>) {
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
 /// of digits as infinite.
-fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, Span>) {
+fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, TextSpan>) {
     let is_changed = |problem: &&mut Problem| problem.found.contains("nan") || problem.found.contains("inf");
     for problem in problems.iter_mut().filter(is_changed) {
         let range = spans.get(&problem.path).and_then(|span| span.value.clone());

@@ -54,4 +54,4 @@ pub use log::{Log, Message};
 pub use sequence::{Call, Phase};
 pub use snapshots::Handle;
 pub use status::{Refusal, Status, StatusKind};
-pub use stepped::{Part, Stepped, Update};
+pub use stepped::{StepPart, Stepped, Update};

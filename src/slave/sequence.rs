@@ -61,10 +61,10 @@ const STEPPED: &[Phase] = &[StepComplete, Terminated];
 const NEVER: &[Phase] = &[];
 
 /// A row of a table: name of the C function, and phases in which it may be called.
-type Rule = (&'static str, &'static [Phase]);
+type CallRow = (&'static str, &'static [Phase]);
 
 /// That of a version without such a function.
-const NONE: Rule = ("", NEVER);
+const NONE: CallRow = ("", NEVER);
 
 /// Makes of the rows of the tables of both versions the calls, and of each call its rows.
 macro_rules! calls {
@@ -81,7 +81,7 @@ macro_rules! calls {
 
         impl Call {
             /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
-            pub const fn rule(self, version: FmiVersion) -> Rule {
+            pub const fn rule(self, version: FmiVersion) -> CallRow {
                 match (self, version) {
                     $((Call::$call, FmiVersion::V2) => $of_2, (Call::$call, FmiVersion::V3) => $of_3,)+
                     (Call::NotOffered(name), _) => (name, NEVER),

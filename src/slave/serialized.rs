@@ -6,7 +6,7 @@
 //! | 4 | [`FORMAT`], little-endian as all numbers |
 //! | 16 | GUID of the FMU |
 //! | 8 | length of the body |
-//! | ... | the body: a [`Body`] in the encoding of postcard |
+//! | ... | the body: a [`SnapshotBody`] in the encoding of postcard |
 //! | 16 | checksum: the name-based UUID, with SHA-1, of everything before it under the GUID |
 //!
 //! The checksum is against accidents. Who means to can forge it, so the body is not trusted either: what a model could
@@ -29,7 +29,7 @@ use uuid::Uuid;
 
 const MAGIC: &[u8; 8] = b"pounding";
 
-/// Of the body. It is counted up when what [`Body`] holds changes: a test notices.
+/// Of the body. It is counted up when what [`SnapshotBody`] holds changes: a test notices.
 const FORMAT: u32 = 10;
 
 /// Bytes around the body.
@@ -37,7 +37,7 @@ const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + siz
 
 /// A snapshot without what follows from the scene.
 #[derive(Serialize, Deserialize)]
-struct Body<'a> {
+struct SnapshotBody<'a> {
     phase: Phase,
     stop_time: Option<f64>,
     changes: Changes,
@@ -63,7 +63,7 @@ impl Slave {
         };
         let changes = settings.changes(&self.defaults, &self.table);
         let held = held.as_ref().map(Cow::Borrowed);
-        let body = Body { phase: *phase, stop_time: *stop_time, changes, run, held };
+        let body = SnapshotBody { phase: *phase, stop_time: *stop_time, changes, run, held };
         let name = self.version().state_name();
         let body = postcard::to_allocvec(&body).map_err(|error| Refusal::from(format!("{name}: {error}")))?;
         Ok(wrap(&self.fingerprint, &body))
@@ -73,7 +73,8 @@ impl Slave {
     pub(super) fn deserialize(&self, bytes: &[u8]) -> Result<Snapshot, Refusal> {
         let body = unwrap(&self.fingerprint, bytes)?;
         let damaged = |what: String| refuse(format!("damaged, {what}"));
-        let (body, rest) = postcard::take_from_bytes::<Body<'_>>(body).map_err(|error| damaged(error.to_string()))?;
+        let (body, rest) =
+            postcard::take_from_bytes::<SnapshotBody<'_>>(body).map_err(|error| damaged(error.to_string()))?;
         if !rest.is_empty() {
             return Err(damaged(format!("{} bytes too many", rest.len())));
         }
@@ -81,8 +82,8 @@ impl Slave {
     }
 
     /// Makes a snapshot of a body in which every number can be anything.
-    fn accept(&self, body: Body<'_>) -> Result<Snapshot, Refusal> {
-        let Body { phase, stop_time, changes, run, held } = body;
+    fn accept(&self, body: SnapshotBody<'_>) -> Result<Snapshot, Refusal> {
+        let SnapshotBody { phase, stop_time, changes, run, held } = body;
         let (time, inputs, is_fit) = match &run {
             BodyRun::NotStarted(start) => (start.time, &start.inputs, start.inputs.fit(&self.defaults.scene)),
             BodyRun::Started(state) => (state.time(), state.inputs(), true), // looked at with the rest of the state

@@ -30,7 +30,7 @@ pub(super) struct Updates {
 
 /// What a part of a communication step has come to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum StepPart {
     /// The step is over.
     Done(Stepped),
     /// The master has its turn, and the step goes on by [`go_on`](super::Slave::go_on).

@@ -10,7 +10,7 @@ use super::instance::{Slave, is_time};
 use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::status::{Refusal, Status};
-use super::stepped::{Part, Stepped};
+use super::stepped::{StepPart, Stepped};
 use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::{Collapse, Episode};
@@ -32,8 +32,8 @@ impl Slave {
         let mut part = self.begin_step(current, step)?;
         loop {
             match part {
-                Part::Done(stepped) => return Ok(stepped),
-                Part::Update(_) => part = self.go_on()?,
+                StepPart::Done(stepped) => return Ok(stepped),
+                StepPart::Update(_) => part = self.go_on()?,
             }
         }
     }
@@ -42,10 +42,10 @@ impl Slave {
     ///
     /// # Errors
     /// Those of [`Slave::do_step`].
-    pub fn begin_step(&mut self, current: f64, step: f64) -> Result<Part, Refusal> {
+    pub fn begin_step(&mut self, current: f64, step: f64) -> Result<StepPart, Refusal> {
         if self.is_over() {
             let status = self.tell_collapse();
-            return Ok(Part::Done(self.stepped(status, current + step, false)));
+            return Ok(StepPart::Done(self.stepped(status, current + step, false)));
         }
         let target = self.target(current, step)?;
         if self.updates.inputs {
@@ -58,7 +58,7 @@ impl Slave {
 
     /// Goes on to the end of a step, or to an event in it. `held` are the discrete outputs as the master sees them until it
     /// enters Event Mode.
-    pub(super) fn advance(&mut self, target: f64, held: Option<Held>) -> Result<Part, Refusal> {
+    pub(super) fn advance(&mut self, target: f64, held: Option<Held>) -> Result<StepPart, Refusal> {
         let (returns_early, updates) = (self.interface.returns_early(), self.updates.outputs);
         let waits =
             self.with_episodes(|simulation, note| simulation.advance(target, returns_early || updates, note))?;
@@ -75,7 +75,7 @@ impl Slave {
         };
         let status = self.tell_collapse();
         let needs_event_mode = is_changed || self.run.has_event();
-        Ok(Part::Done(self.stepped(status, target, needs_event_mode)))
+        Ok(StepPart::Done(self.stepped(status, target, needs_event_mode)))
     }
 
     fn stepped(&self, status: Status, target: f64, needs_event_mode: bool) -> Stepped {

@@ -7,7 +7,7 @@
 use super::instance::Slave;
 use super::sequence::Phase;
 use super::status::Refusal;
-use super::stepped::{Part, Turn, UnderWay, Update, Updates};
+use super::stepped::{StepPart, Turn, UnderWay, Update, Updates};
 use crate::engine::Input;
 use crate::variables::Slot;
 
@@ -36,7 +36,7 @@ impl Slave {
     ///
     /// # Errors
     /// No step that waits, a call in the turn that has failed, and all of [`Slave::begin_step`].
-    pub fn go_on(&mut self) -> Result<Part, Refusal> {
+    pub fn go_on(&mut self) -> Result<StepPart, Refusal> {
         let way = self.under_way.take().filter(|_| self.phase == Phase::Update);
         let Some(UnderWay { target, turn }) = way else {
             return Err(Refusal::from("a call in Intermediate Update Mode has failed".to_owned()));
@@ -53,11 +53,11 @@ impl Slave {
     }
 
     /// Hands the master its turn: to give inputs at the end of the step, or to read outputs at the present time.
-    pub(super) fn wait(&mut self, target: f64, sets_inputs: bool) -> Part {
+    pub(super) fn wait(&mut self, target: f64, sets_inputs: bool) -> StepPart {
         let turn = if sets_inputs { Turn::Inputs(Vec::new()) } else { Turn::Outputs };
         self.under_way = Some(UnderWay { target, turn });
         self.phase = Phase::Update;
-        Part::Update(Update { time: if sets_inputs { target } else { self.run.time() }, sets_inputs })
+        StepPart::Update(Update { time: if sets_inputs { target } else { self.run.time() }, sets_inputs })
     }
 
     /// Where the values that inputs will have at the end of the step are kept, while the master is asked for them.

@@ -26,14 +26,14 @@ pub struct Body {
     /// Its floors and foundations in a vector of all floors.
     pub lanes: Range<usize>,
     /// Its buildings.
-    pub buildings: Vec<Part>,
+    pub buildings: Vec<BuildingPart>,
     /// Whether links or soil act on it.
     pub is_linked: bool,
 }
 
 /// A building in its body.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct BuildingPart {
     pub side: Side,
     /// Its floors among the rows of the body; those of its foundation follow.
     pub floors: Range<usize>,
@@ -58,7 +58,7 @@ impl Body {
             for &side in &sides {
                 let places = Places::of(buildings[side as usize]);
                 let (first, own) = (count, places.count());
-                parts.push(Part { side, floors: first..first + places.floors, places });
+                parts.push(BuildingPart { side, floors: first..first + places.floors, places });
                 count += own;
             }
             let own = links.iter().filter(|link| link.ends().any(|(side, ..)| sides.contains(&side)));
@@ -128,14 +128,14 @@ impl Body {
 /// The modes of buildings on soil, or with links between them or to the ground.
 fn linked_modes(
     (buildings, alone): ([&Building; 2], &[Modes; 2]),
-    parts: &[Part],
+    parts: &[BuildingPart],
     links: &[&Link],
 ) -> Result<Modes, NotPositiveDefinite> {
     let count: usize = parts.iter().map(|part| part.places.count()).sum();
     let mut factor = DMatrix::zeros(count + links.len(), count);
     let mut mass = DVector::zeros(count);
     let mut pushed = mass.clone();
-    for Part { side, floors, places } in parts {
+    for BuildingPart { side, floors, places } in parts {
         let (building, first, count) = (buildings[*side as usize], floors.start, places.count());
         let own = match building.foundation {
             None => stiffness_factor(&building.net_stiffness())?,

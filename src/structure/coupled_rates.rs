@@ -27,7 +27,7 @@ const POINTS_TERMS: u32 = 40;
 const TERMS: u32 = 24;
 
 /// A of one body.
-pub(super) struct Rates<'a> {
+pub(super) struct RateMatrix<'a> {
     pub(super) omega2: &'a [f64],
     pub(super) participation: &'a [f64],
     pub(super) damping: &'a DMatrix<f64>,
@@ -35,7 +35,7 @@ pub(super) struct Rates<'a> {
     pub(super) fastest: f64,
 }
 
-impl Rates<'_> {
+impl RateMatrix<'_> {
     /// Length of z, with zeros up to whole blocks.
     pub(super) fn size(&self) -> usize {
         (2 * self.omega2.len() + 2).next_multiple_of(LANES)

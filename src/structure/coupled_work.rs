@@ -4,7 +4,7 @@
 //! velocities, never from the energies at both ends, so that the balance of energy still tests the motion.
 
 use super::bodies::Body;
-use super::coupled_rates::Rates;
+use super::coupled_rates::RateMatrix;
 use super::equations::Structure;
 use super::form::{Form, Squares, row_times, squares};
 use super::lanes::LANES;
@@ -29,7 +29,7 @@ pub(super) struct CoupledWork {
     /// Work of all damping.
     viscous: Form,
     /// Work of the dashpots of links, each with the number of its link.
-    links: Vec<(usize, Work)>,
+    links: Vec<(usize, DashpotWork)>,
     /// w^2 / 2 of what moves in flights, 1/s2.
     half_omega2: Vec<f64>,
     /// Work of the ground motion: rows over z that are multiplied by its acceleration and its slope.
@@ -38,7 +38,7 @@ pub(super) struct CoupledWork {
 
 /// The work of a dashpot.
 #[derive(Clone, Debug)]
-enum Work {
+enum DashpotWork {
     /// Squares of its rate at the points of a quadrature, where these are few.
     Squares(Squares),
     Form(Form),
@@ -61,19 +61,19 @@ impl CoupledEnergy {
     }
 }
 
-impl Work {
+impl DashpotWork {
     /// Of a rate, a row over the velocities of modes, whose square is the power, over z = P y instead of z.
-    fn of_rate(rates: &Rates, rate: &RowDVector<f64>, length: f64, over: Option<&DMatrix<f64>>) -> Work {
+    fn of_rate(rates: &RateMatrix, rate: &RowDVector<f64>, length: f64, over: Option<&DMatrix<f64>>) -> DashpotWork {
         match rates.squares_over(rate, length, over) {
-            Some(squares) => Work::Squares(squares),
-            None => Work::Form(rates.form_over(&(rate.transpose() * rate), length, over)),
+            Some(squares) => DashpotWork::Squares(squares),
+            None => DashpotWork::Form(rates.form_over(&(rate.transpose() * rate), length, over)),
         }
     }
 
     fn of_vectors(&self, z: &[Abreast]) -> Abreast {
         match self {
-            Work::Squares(squares) => squares.of_vectors(z),
-            Work::Form(form) => form.of_vectors(z),
+            DashpotWork::Squares(squares) => squares.of_vectors(z),
+            DashpotWork::Form(form) => form.of_vectors(z),
         }
     }
 }
@@ -83,7 +83,7 @@ impl CoupledWork {
     pub(super) fn of(structure: &Structure, body: &Body, number: usize, length: f64) -> Option<CoupledWork> {
         let ModalDamping::Coupled(damping) = &body.modes.damping else { return None };
         let (range, n) = (body.range.clone(), body.range.len());
-        let rates = Rates {
+        let rates = RateMatrix {
             omega2: &structure.omega2[range.clone()],
             participation: &structure.participation[range.clone()],
             damping,
@@ -98,7 +98,7 @@ impl CoupledWork {
         let of_links = structure.links.iter().enumerate().filter(|(_, link)| link.body == number && link.dashpot > 0.0);
         let links = of_links.map(|(l, link)| {
             let rate = RowDVector::from_row_slice(&link.row[range.clone()]) * link.dashpot.sqrt();
-            (l, Work::of_rate(&rates, &rate, length, over.as_ref()))
+            (l, DashpotWork::of_rate(&rates, &rate, length, over.as_ref()))
         });
         let input = rates.input_over(length);
         Some(CoupledWork {

@@ -10,12 +10,12 @@ use nalgebra::DMatrix;
 pub struct FlightModes {
     /// The energy of the modes is at most so many times the sum of (x'^2 + w^2 x^2) / 2 over the oscillators.
     pub most_energy: f64,
-    maps: Vec<Map>,
+    maps: Vec<OscillatorMap>,
 }
 
 /// From the coordinates of one body's oscillators to its modes and back.
 #[derive(Clone, Debug)]
-struct Map {
+struct OscillatorMap {
     /// First mode and number of modes.
     offset: usize,
     count: usize,
@@ -41,7 +41,7 @@ impl FlightModes {
             let damping = ModalDamping::Diagonal(damping);
             let modes = Modes { omega, shape: DMatrix::zeros(count, count), participation, damping };
             moving.push(Body { modes, ..body.clone() });
-            maps.push(Map { offset: body.range.start, count, to_modes, from_modes });
+            maps.push(OscillatorMap { offset: body.range.start, count, to_modes, from_modes });
         }
         (!maps.is_empty()).then_some((FlightModes { most_energy: most, maps }, moving))
     }
@@ -59,7 +59,7 @@ impl FlightModes {
     /// Writes the velocities of the modes of several motions side by side.
     pub(super) fn velocities_of_modes<const N: usize>(&self, (q, v): (&[[f64; N]], &[[f64; N]]), out: &mut [[f64; N]]) {
         out.copy_from_slice(v);
-        for Map { offset, count, to_modes, .. } in &self.maps {
+        for OscillatorMap { offset, count, to_modes, .. } in &self.maps {
             let own = *offset..offset + count;
             multiply_abreast(to_modes.as_slice(), (&q[own.clone()], &v[own.clone()]), &mut out[own]);
         }
@@ -72,7 +72,7 @@ impl FlightModes {
 
     fn convert(
         &self,
-        matrix: impl Fn(&Map) -> &DMatrix<f64>,
+        matrix: impl Fn(&OscillatorMap) -> &DMatrix<f64>,
         from: (&[f64], &[f64]),
         (q, v): (&mut [f64], &mut [f64]),
     ) {
@@ -89,7 +89,7 @@ impl FlightModes {
     /// rates.
     pub fn rows(&self, [on_q, on_v]: [&[f64]; 2]) -> [Vec<f64>; 2] {
         let mut rows = [on_q.to_vec(), on_v.to_vec()];
-        for Map { offset, count, to_modes, .. } in &self.maps {
+        for OscillatorMap { offset, count, to_modes, .. } in &self.maps {
             let whole: Vec<f64> =
                 on_q[*offset..offset + count].iter().chain(&on_v[*offset..offset + count]).copied().collect();
             let of = |column: usize| to_modes.column(column).iter().zip(&whole).map(|(t, row)| t * row).sum();

@@ -30,7 +30,7 @@ pub struct Floors {
     inverse_mass: Vec<f64>,
     /// N/m, of the storey below each floor of a shear building.
     storey: Vec<f64>,
-    blocks: Vec<Block>,
+    blocks: Vec<Neighbours>,
     buildings: [Blocks; 2],
     /// The displacements or velocities of floors at rest: zeros.
     pub rest: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct Floors {
 
 /// Stiffness between a block of floors and their neighbours, over the masses of the floors.
 #[derive(Clone, Copy, Debug, Default)]
-struct Block {
+struct Neighbours {
     /// Stiffness of the storey below each floor over the floor's mass, 1/s2.
     below: Lane,
     /// The same of the storey above.
@@ -60,7 +60,7 @@ struct Blocks {
     on_stiffness: f64,
 }
 
-impl Block {
+impl Neighbours {
     /// Enters M^-1 (K u + rate C v) of a block of floors, from the drifts of the storeys below them and of the storey
     /// above the last floor.
     #[inline(always)]
@@ -99,7 +99,7 @@ impl Floors {
             mass: zeros.clone(),
             inverse_mass: zeros.clone(),
             storey: zeros.clone(),
-            blocks: vec![Block::default(); zeros.len() / LANES],
+            blocks: vec![Neighbours::default(); zeros.len() / LANES],
             buildings: [Blocks::default(); 2],
             rest: zeros,
             is_sparse: second.is_multiple_of(LANES) && !are_linked,
@@ -296,7 +296,7 @@ impl Blocks {
     #[inline(always)]
     fn enter_resistance(
         &self,
-        blocks: &[Block],
+        blocks: &[Neighbours],
         (u, v): (&[Lane], &[Lane]),
         rate: f64,
         out: &mut [Lane],
@@ -350,7 +350,7 @@ impl Shear {
     #[inline(always)]
     fn enter_next<const N: usize>(
         &mut self,
-        blocks: &[Block],
+        blocks: &[Neighbours],
         (u, v): (&[Lane], &[Lane]),
         c: usize,
         out: &mut [Lane],

@@ -31,7 +31,7 @@ pub(super) const DAMPING_RATIO: f64 = 0.05;
 pub(super) const POST_YIELD_RATIO: f64 = 0.05;
 
 /// Rows of one thing, such as a floor: how their names begin and end, and how their descriptions do.
-pub(super) struct Part<'t> {
+pub(super) struct RowGroup<'t> {
     table: &'t mut Table,
     thing: String,
     number: Option<usize>,
@@ -40,23 +40,23 @@ pub(super) struct Part<'t> {
 
 impl Table {
     /// Rows of a building.
-    pub(super) fn of_building(&mut self, side: Side) -> Part<'_> {
-        Part { table: self, thing: side.name().to_owned(), number: None, about: String::new() }
+    pub(super) fn of_building(&mut self, side: Side) -> RowGroup<'_> {
+        RowGroup { table: self, thing: side.name().to_owned(), number: None, about: String::new() }
     }
 
     /// Rows of a floor, a storey or a mode, counted from 0.
-    pub(super) fn of_floor(&mut self, side: Side, floor: usize) -> Part<'_> {
-        Part { number: Some(floor + 1), ..self.of_building(side) }
+    pub(super) fn of_floor(&mut self, side: Side, floor: usize) -> RowGroup<'_> {
+        RowGroup { number: Some(floor + 1), ..self.of_building(side) }
     }
 
     /// Rows of a foundation.
-    pub(super) fn of_foundation(&mut self, side: Side) -> Part<'_> {
-        Part { thing: format!("{side}.foundation"), ..self.of_building(side) }
+    pub(super) fn of_foundation(&mut self, side: Side) -> RowGroup<'_> {
+        RowGroup { thing: format!("{side}.foundation"), ..self.of_building(side) }
     }
 
     /// Rows of a contact or a link, counted from 0, with what meets there.
-    pub(super) fn of_meeting(&mut self, kind: &str, place: usize, meeting: &str) -> Part<'_> {
-        Part { table: self, thing: format!("{kind}[{}]", place + 1), number: None, about: format!(" {meeting}") }
+    pub(super) fn of_meeting(&mut self, kind: &str, place: usize, meeting: &str) -> RowGroup<'_> {
+        RowGroup { table: self, thing: format!("{kind}[{}]", place + 1), number: None, about: format!(" {meeting}") }
     }
 
     /// A row with what follows from what it stands for: when it changes, and the least that it can be.
@@ -85,10 +85,10 @@ impl Table {
     }
 }
 
-impl Part<'_> {
+impl RowGroup<'_> {
     /// A row; `#` in what is said of it stands for the number of the thing.
     pub(super) fn add(&mut self, slot: impl Into<Slot>, name: &str, scale: Scale, about: &str) -> &mut Row {
-        let Part { table, thing, number, about: of } = self;
+        let RowGroup { table, thing, number, about: of } = self;
         let (name, about) = match number {
             Some(n) => (format!("{thing}.{name}[{n}]"), about.replace('#', &n.to_string())),
             None => (format!("{thing}.{name}"), about.to_owned()),

@@ -6,7 +6,7 @@ use crate::contact::taylor::{Each, PAIRS, ROOT};
 use crate::numerics::polynomial::each;
 
 /// A double series of each pair.
-type Rows = [Each; MOST_TERMS];
+type DoubleSeries = [Each; MOST_TERMS];
 
 /// Up to [`PAIRS`] contacts of one kind over an onset step, all of which enter or all of which touch already.
 #[derive(Clone, Debug)]
@@ -24,13 +24,13 @@ pub(crate) struct OnsetBlock {
     /// 1/e_0 of pairs that enter, 1/d_0 of others.
     inverse: Each,
     /// m, terms of the penetration d; those of e stand one place further.
-    pub(super) penetration: Rows,
+    pub(super) penetration: DoubleSeries,
     /// Terms of the base of the power, e or d, each times its exponent of x; at the indices of the penetration's terms.
-    slopes: Rows,
+    slopes: DoubleSeries,
     /// N, terms of the force times x: row j holds the powers i - 1 + beta j.
-    pub force: Rows,
-    power: Rows,
-    root: Rows,
+    pub force: DoubleSeries,
+    power: DoubleSeries,
+    root: DoubleSeries,
 }
 
 impl Default for OnsetBlock {
@@ -192,7 +192,7 @@ impl OnsetBlock {
     #[inline(always)]
     fn next_power(
         &self,
-        power: &Rows,
+        power: &DoubleSeries,
         exponent: Each,
         grid: &Grid,
         products: &Products,

@@ -131,7 +131,7 @@ impl Products {
 }
 
 /// A scalar double series.
-pub(crate) type Terms = [f64; MOST_TERMS];
+pub(crate) type GridTerms = [f64; MOST_TERMS];
 
 /// The powers of x of a grid, and what derivatives and integrals need.
 #[derive(Clone, Debug)]
@@ -140,11 +140,11 @@ pub(crate) struct GridPowers {
     pub x: f64,
     pub(super) terms: usize,
     /// x^e of each exponent e.
-    pub(super) value: Terms,
+    pub(super) value: GridTerms,
     /// e x^(e-1).
-    pub(super) slope: Terms,
+    pub(super) slope: GridTerms,
     /// x^e / e; 0 for e = 0.
-    pub(super) primitive: Terms,
+    pub(super) primitive: GridTerms,
 }
 
 impl Default for GridPowers {

@@ -1,7 +1,7 @@
 //! Values, bounds and integrals of the double series of pairs at some x.
 
 use super::block::OnsetBlock;
-use super::grid::{Grid, GridPowers, MOST_TERMS, Terms};
+use super::grid::{Grid, GridPowers, GridTerms, MOST_TERMS};
 use crate::contact::taylor::{Each, PAIRS};
 use crate::numerics::polynomial::each;
 
@@ -32,17 +32,17 @@ impl OnsetBlock {
     }
 
     /// The penetration of one pair, copied.
-    pub(crate) fn copy_penetration(&self, grid: &Grid, lane: usize) -> Terms {
+    pub(crate) fn copy_penetration(&self, grid: &Grid, lane: usize) -> GridTerms {
         copy(&self.penetration[..grid.terms()], lane)
     }
 
     /// The force of one pair times x, copied.
-    pub(crate) fn copy_force(&self, grid: &Grid, lane: usize) -> Terms {
+    pub(crate) fn copy_force(&self, grid: &Grid, lane: usize) -> GridTerms {
         copy(&self.force[..grid.terms()], lane)
     }
 }
 
-fn copy(rows: &[Each], lane: usize) -> Terms {
+fn copy(rows: &[Each], lane: usize) -> GridTerms {
     let mut terms = [0.0; MOST_TERMS];
     terms.iter_mut().zip(rows).for_each(|(term, row)| *term = row[lane]);
     terms

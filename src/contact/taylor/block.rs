@@ -11,7 +11,7 @@ pub(crate) const PAIRS: usize = 4;
 pub(crate) type Each = [f64; PAIRS];
 
 /// A series of each pair.
-type Rows = [Each; MAX_TERMS];
+type PairSeries = [Each; MAX_TERMS];
 
 /// A series of each pair with n times its term n beside it.
 pub(super) type Sloped = [[Each; 2]; MAX_TERMS];
@@ -40,13 +40,13 @@ pub(crate) struct PairBlock {
     /// d^1.25.
     pub(super) lead: [Each; 2],
     /// Penetration, m.
-    pub penetration: Rows,
+    pub penetration: PairSeries,
     /// The same backwards, term 0 at [`LAST`]: a product of series then goes through memory in one direction.
-    pub(super) backwards: Rows,
+    pub(super) backwards: PairSeries,
     /// n times term n of the penetration, backwards; of [`Kind::Damped`] only.
-    pub(super) slope: Rows,
+    pub(super) slope: PairSeries,
     /// Force, N.
-    pub force: Rows,
+    pub force: PairSeries,
     /// d^n of a power law, d^1.5 of a root law.
     pub(super) power: Sloped,
     /// d^1.25 of a root law.

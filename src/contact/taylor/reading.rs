@@ -3,7 +3,7 @@
 use super::block::{Each, PAIRS, PairBlock};
 use crate::contact::force::Force;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS, RECIPROCAL, each, value_and_slope};
-use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::powers::{Evaluation, Powers};
 
 /// The penetrations of a block at the end of a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,15 +33,15 @@ pub(crate) struct ForceReading {
 
 impl BlockReading {
     /// Of one pair.
-    pub(crate) fn of(&self, lane: usize) -> Reading {
-        Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
+    pub(crate) fn of(&self, lane: usize) -> Evaluation {
+        Evaluation { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
     }
 }
 
 impl ForceReading {
     /// Of one pair.
-    pub(crate) fn of(&self, lane: usize) -> Reading {
-        Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
+    pub(crate) fn of(&self, lane: usize) -> Evaluation {
+        Evaluation { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
     }
 }
 

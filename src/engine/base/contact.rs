@@ -31,7 +31,7 @@ pub struct Episode {
 
 /// The phase of a contact, which decides its force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Phase {
+pub(crate) enum ContactPhase {
     /// Apart: no force.
     Apart,
     /// In contact, the law's force acts.
@@ -58,7 +58,7 @@ pub(crate) struct Passage {
 /// The state of one contact at the base.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Contact {
-    pub phase: Phase,
+    pub phase: ContactPhase,
     /// The forces of the latest episode on both sides of the law's guard, and the guard.
     pub force: EpisodeForce,
     /// Penetration, m, positive in contact. During an episode it is integrated from its own rate and not recomputed
@@ -100,18 +100,18 @@ pub(crate) struct Contact {
 impl Contact {
     /// Whether the floors touch: engaged, slack or held.
     pub(crate) fn in_contact(&self) -> bool {
-        self.phase != Phase::Apart
+        self.phase != ContactPhase::Apart
     }
 
     /// Whether rigid floors are held together by a reaction.
     pub(crate) fn is_held(&self) -> bool {
-        self.phase == Phase::Held
+        self.phase == ContactPhase::Held
     }
 
     /// Integral of F v of all episodes so far, J.
     pub(crate) fn dissipated_energy(&self) -> f64 {
         match self.phase {
-            Phase::Apart => self.work,
+            ContactPhase::Apart => self.work,
             _ => self.work + (self.branch().stored_energy(self.penetration) - self.stored_reference),
         }
     }
@@ -119,9 +119,9 @@ impl Contact {
     /// The force law of the present phase.
     pub(crate) fn branch(&self) -> Force {
         match self.phase {
-            Phase::Apart | Phase::Held => Force::None,
-            Phase::Engaged => self.force.engaged,
-            Phase::Slack => self.force.slack,
+            ContactPhase::Apart | ContactPhase::Held => Force::None,
+            ContactPhase::Engaged => self.force.engaged,
+            ContactPhase::Slack => self.force.slack,
         }
     }
 
@@ -133,7 +133,7 @@ impl Contact {
     /// The force at the base, N, positive in compression.
     pub(crate) fn present_force(&self) -> f64 {
         match self.phase {
-            Phase::Held => self.reaction,
+            ContactPhase::Held => self.reaction,
             _ => self.branch().value(self.penetration, self.rate),
         }
     }
@@ -141,7 +141,11 @@ impl Contact {
     /// Begins an episode at the present penetration.
     pub(crate) fn begin(&mut self, time: f64, approach_velocity: f64) {
         self.impacts += 1;
-        self.phase = if self.force.is_engaged(self.penetration, self.rate) { Phase::Engaged } else { Phase::Slack };
+        self.phase = if self.force.is_engaged(self.penetration, self.rate) {
+            ContactPhase::Engaged
+        } else {
+            ContactPhase::Slack
+        };
         self.stored_reference = self.branch().stored_energy(self.penetration);
         (self.work_before, self.age) = (self.work, 0.0);
         let force = self.present_force();
@@ -204,7 +208,7 @@ impl Contact {
     /// Passes to the force on the other side of the law's guard.
     pub(crate) fn change_branch(&mut self) {
         self.settle();
-        self.phase = if self.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
+        self.phase = if self.phase == ContactPhase::Engaged { ContactPhase::Slack } else { ContactPhase::Engaged };
         self.stored_reference = self.branch().stored_energy(self.penetration);
     }
 

@@ -11,7 +11,7 @@ pub(super) mod storey;
 
 use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
-use crate::engine::base::contact::{Contact, Episode, Phase};
+use crate::engine::base::contact::{Contact, ContactPhase, Episode};
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
@@ -145,7 +145,7 @@ impl Base {
         contact.penetration = 0.0;
         contact.at_surface = true;
         contact.settle();
-        contact.phase = Phase::Apart;
+        contact.phase = ContactPhase::Apart;
         contact.episode = contact.present_episode();
         contact.episode.end = Some(time);
         contact.episode.separation_velocity = -contact.rate;

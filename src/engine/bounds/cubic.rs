@@ -2,7 +2,7 @@
 //! and the bound on its error, h^4/384 max|y''''| \[BirkhoffPriver1967\].
 
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
-use crate::engine::quantities::rows::{Block, sums_of, values_of};
+use crate::engine::quantities::rows::{RowBlock, sums_of, values_of};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
@@ -21,7 +21,7 @@ pub struct Course {
 
 /// The quantities of a block, with their values at rest, at both ends of a flight, of which its values may be known.
 pub fn course_of(
-    (block, at_rest): (&Block, &Lane),
+    (block, at_rest): (&RowBlock, &Lane),
     (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
     bounds: &ModeBounds,
     modes: Range<usize>,

@@ -1,7 +1,7 @@
 //! Oscillation about the quasi-static displacement: its envelope never grows under a load that is linear in time.
 
 use crate::engine::bounds::stretch::{MARGIN, ModeBounds};
-use crate::engine::quantities::rows::{Block, sums_of};
+use crate::engine::quantities::rows::{RowBlock, sums_of};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// `direct` is an addition to them that is linear in time, with the start and the length of its interval, s.
 pub fn stay_below(
     peaks: &Lane,
-    (block, at_rest): (&Block, &Lane),
+    (block, at_rest): (&RowBlock, &Lane),
     (bounds, modes): (&ModeBounds, &Range<usize>),
     direct: Option<(&[[f64; 2]], f64, f64)>,
 ) -> [bool; LANES] {

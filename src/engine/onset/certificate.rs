@@ -4,7 +4,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
-use crate::engine::pairs::row::Row;
+use crate::engine::pairs::row::WeightRow;
 use crate::engine::system::System;
 use crate::structure::sum_sizes;
 
@@ -53,7 +53,7 @@ impl System {
         });
         are_elastic
             && apart.all(|(p, contact)| {
-                let Row { modes, floors, .. } = &self.pairs[p].row;
+                let WeightRow { modes, floors, .. } = &self.pairs[p].row;
                 let most = match base.coordinates {
                     Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
                     Coordinates::Modes => modes.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),

@@ -4,7 +4,7 @@ use crate::engine::base::Account;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::EnergyPoint;
-use crate::engine::output::point::Known;
+use crate::engine::output::point::Observed;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::sum::Sum;
 
@@ -13,14 +13,14 @@ impl Instant<'_> {
     pub fn energy(&self) -> Option<EnergyPoint> {
         let Instant { model, state, point } = *self;
         let account = state.base.energy?;
-        let Known { observation, shown } = point.energy.get();
+        let Observed { observation, shown } = point.energy.get();
         if observation == point.floors.observation {
             return Some(shown);
         }
         let mut work = model.take_buffers(point);
         let shown = self.read_energy(account, &mut work);
         point.work.replace(Some(work));
-        point.energy.set(Known { observation: point.floors.observation, shown });
+        point.energy.set(Observed { observation: point.floors.observation, shown });
         Some(shown)
     }
 

@@ -23,7 +23,7 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PeakCell;
 use crate::engine::output::outputs::ContactPoint;
-use crate::engine::output::point::{Known, Point};
+use crate::engine::output::point::{Observed, Point};
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::engine::system::buffers::Buffers;
@@ -137,7 +137,7 @@ impl Instant<'_> {
     /// Where the scene has no such contact.
     #[inline]
     pub fn contact(&self, p: usize) -> ContactPoint {
-        let Known { observation, shown } = self.point.contacts[p].get();
+        let Observed { observation, shown } = self.point.contacts[p].get();
         if observation == self.point.floors.observation { shown } else { self.note_contact_apart(p) }
     }
 
@@ -194,6 +194,6 @@ impl Instant<'_> {
 
 impl Point {
     fn note_contact(&self, p: usize, shown: ContactPoint) {
-        self.contacts[p].set(Known { observation: self.floors.observation, shown });
+        self.contacts[p].set(Observed { observation: self.floors.observation, shown });
     }
 }

@@ -32,9 +32,9 @@ pub struct Point {
     /// Displacements of all floors at rest, m.
     pub(in crate::engine) rest: Vec<f64>,
     /// The contacts, as far as they have been worked out.
-    pub(in crate::engine) contacts: Vec<Cell<Known<ContactPoint>>>,
+    pub(in crate::engine) contacts: Vec<Cell<Observed<ContactPoint>>>,
     /// The energy account, once it has been worked out.
-    pub(in crate::engine) energy: Cell<Known<EnergyPoint>>,
+    pub(in crate::engine) energy: Cell<Observed<EnergyPoint>>,
     /// Energy dissipated by the dashpots of the links, J, worked out with the energy account.
     pub(in crate::engine) dashpots: RefCell<Vec<f64>>,
     pub(in crate::engine) work: RefCell<Option<Box<Buffers>>>,
@@ -53,7 +53,7 @@ impl Point {
 
 /// Outputs, and the number of the observation to which they belong.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Known<T> {
+pub(crate) struct Observed<T> {
     pub observation: u64,
     pub shown: T,
 }

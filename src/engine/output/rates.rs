@@ -5,7 +5,7 @@
 //! on, under the inputs as set so far.
 
 use crate::engine::base::Coordinates;
-use crate::engine::base::contact::Phase;
+use crate::engine::base::contact::ContactPhase;
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
@@ -63,12 +63,12 @@ impl Instant<'_> {
             let contact = state.step.contact_at(system, &state.base, p, elapsed, &work.powers);
             let relative = |motion: &[f64]| system.pairs[p].relative(point.coordinates, motion);
             let penetration = match contact.phase {
-                Phase::Held if self.contact(p).force > 0.0 => [0.0; 2],
-                Phase::Held => [0.0, relative(&rates.acceleration)],
-                Phase::Apart => [relative(&point.v), relative(&rates.acceleration)],
-                Phase::Engaged | Phase::Slack => [contact.rate, relative(&rates.acceleration)],
+                ContactPhase::Held if self.contact(p).force > 0.0 => [0.0; 2],
+                ContactPhase::Held => [0.0, relative(&rates.acceleration)],
+                ContactPhase::Apart => [relative(&point.v), relative(&rates.acceleration)],
+                ContactPhase::Engaged | ContactPhase::Slack => [contact.rate, relative(&rates.acceleration)],
             };
-            let enters = contact.phase == Phase::Apart && contact.at_surface && contact.rate > 0.0;
+            let enters = contact.phase == ContactPhase::Apart && contact.at_surface && contact.rate > 0.0;
             is_beginning |= enters || contact.is_singular();
             let mut contact_rates = ContactRates::default();
             contact_rates[C::Penetration] = penetration;

@@ -2,8 +2,8 @@
 
 use crate::contact::{EpisodeForce, Force, ImpactLaw};
 use crate::engine::base::Coordinates;
-use crate::engine::base::contact::{Contact, Episode, Phase};
-use crate::engine::pairs::row::{Row, relative};
+use crate::engine::base::contact::{Contact, ContactPhase, Episode};
+use crate::engine::pairs::row::{WeightRow, relative};
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::scene::{Scene, Share};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
@@ -12,7 +12,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
 #[derive(Clone, Debug)]
 pub(crate) struct Pair {
     /// Row of the Jacobian: penetration = row . q - gap, and a contact force F loads the motion with -row F.
-    pub row: Row,
+    pub row: WeightRow,
     /// Gap at rest, m.
     pub gap: f64,
     pub law: ImpactLaw,
@@ -26,7 +26,7 @@ impl Pair {
     /// A contact of the scene, with its masses and its row of the modal Jacobian.
     pub(crate) fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let shares: Vec<Share> = pair.row(scene).collect();
-        let row = Row::of(structure, shares.iter().map(|share| (share.side, share.place, share.weight)));
+        let row = WeightRow::of(structure, shares.iter().map(|share| (share.side, share.place, share.weight)));
         let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
         for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row.modes) {
             *first = *row;
@@ -72,7 +72,7 @@ impl Pair {
         let (penetration, rate) = (self.relative(Coordinates::Modes, q) - gap, self.relative(Coordinates::Modes, v));
         let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {
-            phase: Phase::Apart,
+            phase: ContactPhase::Apart,
             force,
             penetration,
             rate,

@@ -8,7 +8,7 @@ use crate::structure::{MotionSeries, Side, Structure};
 
 /// A row over modes, oscillators and floors alike. Its quantity is what it makes of a motion.
 #[derive(Clone, Debug)]
-pub(crate) struct Row {
+pub(crate) struct WeightRow {
     /// Over the modes, kg^-1/2.
     pub modes: Vec<f64>,
     /// Over oscillators, where these move in flights.
@@ -34,24 +34,24 @@ pub(crate) struct FloorShare {
     pub push: f64,
 }
 
-impl Row {
+impl WeightRow {
     /// Of displacements of buildings, each with its weight.
-    pub(crate) fn of(structure: &Structure, places: impl Iterator<Item = (Side, Place, f64)> + Clone) -> Row {
+    pub(crate) fn of(structure: &Structure, places: impl Iterator<Item = (Side, Place, f64)> + Clone) -> WeightRow {
         let mut modes = vec![0.0; structure.lanes];
         places.clone().for_each(|(side, place, weight)| structure.add_force(side, place, weight, &mut modes));
         let lane = |(side, place, weight)| Some((structure.floors.lane_of(side, place)?, weight));
-        Row::over(structure, modes, places.filter_map(lane))
+        WeightRow::over(structure, modes, places.filter_map(lane))
     }
 
     /// From that over the modes, and lanes and weights of its floors.
-    pub(crate) fn over(structure: &Structure, modes: Vec<f64>, lanes: impl Iterator<Item = (usize, f64)>) -> Row {
+    pub(crate) fn over(structure: &Structure, modes: Vec<f64>, lanes: impl Iterator<Item = (usize, f64)>) -> WeightRow {
         let mut floors = RowOfFloors::default();
         for (floor, (lane, weight)) in floors.iter_mut().zip(lanes) {
             *floor = FloorShare { lane, weight, push: -weight * structure.floors.inverse_mass(lane) };
         }
         let of_ground = |floor: &FloorShare| floor.weight * structure.floors.share_of_ground(floor.lane);
         let share_of_ground = floors.iter().map(of_ground).sum();
-        Row { oscillating: OscillatorRows::of(structure, &modes), modes, floors, share_of_ground }
+        WeightRow { oscillating: OscillatorRows::of(structure, &modes), modes, floors, share_of_ground }
     }
 
     /// The row of the quantity in flights.

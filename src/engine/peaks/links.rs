@@ -10,7 +10,7 @@ use crate::numerics::polynomial::larger;
 
 /// What is known of a quantity of a link over a step: its values at both ends, a bound on its magnitude, and whether it is
 /// monotonic.
-type Course = (PeakOf, [f64; 2], (f64, bool));
+type LinkCourse = (PeakOf, [f64; 2], (f64, bool));
 
 impl PeakFinder<'_> {
     /// Whether a peak of a link may be exceeded over the step, by the bounds on its floors.
@@ -46,7 +46,7 @@ impl PeakFinder<'_> {
         [closing, rate, force]
     }
 
-    fn courses_of_link(&self, l: usize, part: &ContactStep, work: &PeakWork) -> [Course; 2] {
+    fn courses_of_link(&self, l: usize, part: &ContactStep, work: &PeakWork) -> [LinkCourse; 2] {
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
         let (link, h) = (&self.system.structure.links[l], part.length);
         let lost = self.system.stiffness_lost_by_link(&part.base.storeys, l);

@@ -2,7 +2,7 @@
 
 use crate::engine::quantities::rows::PeakOf;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS, larger};
-use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::{MotionSeries, dot};
@@ -115,14 +115,14 @@ pub fn highest_by(
     mut value_at: impl FnMut(f64, f64) -> f64,
 ) -> f64 {
     powers.set(x, order);
-    let Reading { value, slope, fourth } = powers.read(terms);
+    let Evaluation { value, slope, fourth } = powers.read(terms);
     let mut peak = known;
     for sign in [1.0, -1.0] {
         let copy = |out: &mut Coefficients| {
             out.iter_mut().zip(terms).for_each(|(out, term)| *out = sign * term);
             order + 1
         };
-        let end = Reading { value: sign * value, slope: sign * slope, fourth };
+        let end = Evaluation { value: sign * value, slope: sign * slope, fourth };
         let top = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy);
         peak = top.map_or(peak, |(at, value)| larger(peak, value_at(at, value)));
     }

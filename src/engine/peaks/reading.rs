@@ -2,7 +2,7 @@
 //! is part of one oscillation of the contact, so that a few evaluations find every turning point.
 
 use crate::collocation::MOST_PAIRS;
-use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
+use crate::contact::onset::{GridTerms, MOST_TERMS, value_and_slope};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::onset::series::OnsetSeries;
@@ -209,7 +209,7 @@ impl PeakFinder<'_> {
 
 /// A quantity in the double series of an onset step: a sum of three series, divided by 1, x and x^2.
 struct OnsetQuantity {
-    terms: [Terms; 3],
+    terms: [GridTerms; 3],
     /// Its value at rest.
     at_rest: f64,
 }
@@ -261,7 +261,7 @@ impl OnsetQuantity {
 /// whole step is divided into the same parts, an even number of them, so that a turning point has the same bits whatever
 /// part is asked for.
 fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read: impl FnMut(f64) -> Knot) -> f64 {
-    let mut search = Search { peak: known, until, read };
+    let mut search = HighestSearch { peak: known, until, read };
     let at = |i: u32| if i == parts { to } else { from + (to - from) * (f64::from(i) / f64::from(parts)) };
     let mut last = (search.read)(from);
     for i in (0..parts).step_by(2).take_while(|i| at(*i) <= until) {
@@ -275,13 +275,13 @@ fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read:
 }
 
 /// A search for the largest magnitude up to a time, s.
-struct Search<R> {
+struct HighestSearch<R> {
     peak: f64,
     until: f64,
     read: R,
 }
 
-impl<R: FnMut(f64) -> Knot> Search<R> {
+impl<R: FnMut(f64) -> Knot> HighestSearch<R> {
     /// Raises the peak over the part between two readings; where nothing is seen to turn between them it may be halved.
     fn raise(&mut self, a: Knot, b: Knot, halvings: u32) {
         if a.x > self.until {

@@ -7,7 +7,7 @@ use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
-use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
+use crate::engine::quantities::rows::{BodyRows, PeakOf, PeakRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
 use crate::structure::{EXACT, LANES, Lane, flight_order};
@@ -278,7 +278,7 @@ impl PeakFinder<'_> {
     }
 
     /// The body and the block of a quantity.
-    fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
+    fn block_of(&self, place: usize) -> (&BodyRows, &RowBlock) {
         self.watched.in_flight().block_of(place)
     }
 
@@ -434,7 +434,7 @@ impl PeakFinder<'_> {
 
 /// Bounds on the second derivatives of a block, from E and E / w of its modes.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bend_of(block: &Block, energy: &[f64], over_w: &[f64]) -> Lane {
+fn bend_of(block: &RowBlock, energy: &[f64], over_w: &[f64]) -> Lane {
     let mut bends = [0.0; LANES];
     for (row, bound) in block.on_q.iter().zip(over_w).chain(block.on_v.iter().zip(energy)) {
         for i in 0..LANES {

@@ -39,7 +39,7 @@ pub enum PeakOf {
 pub(crate) struct PeakRows {
     pub bodies: Vec<BodyRows>,
     /// Where those of each building begin.
-    buildings: [Places; 2],
+    buildings: [FirstPlaces; 2],
     /// Indices of displacement and force of each link.
     links: Vec<[usize; 2]>,
 }
@@ -52,7 +52,7 @@ pub(crate) struct BodyRows {
     pub modes: Range<usize>,
     /// Number of its first block among the blocks of all bodies.
     pub first: usize,
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<RowBlock>,
     /// Displacements and drifts, and displacements of links.
     moving: Vec<PeakOf>,
     /// Accelerations and base shears, and forces of links.
@@ -61,7 +61,7 @@ pub(crate) struct BodyRows {
 
 /// Indices of the first displacement, drift and acceleration of a building, and of its base shear.
 #[derive(Clone, Copy, Debug, Default)]
-struct Places {
+struct FirstPlaces {
     displacement: usize,
     drift: usize,
     acceleration: usize,
@@ -70,7 +70,7 @@ struct Places {
 
 /// [`LANES`] quantities of one body.
 #[derive(Debug)]
-pub(crate) struct Block {
+pub(crate) struct RowBlock {
     /// Row A, mode by mode.
     pub on_q: Vec<Lane>,
     /// Row B, mode by mode; empty where it is 0.
@@ -81,7 +81,7 @@ impl PeakRows {
     /// The watched quantities of all bodies; none unless `wanted`.
     pub(crate) fn of(structure: &Structure, wanted: bool) -> PeakRows {
         let links = vec![[0; 2]; structure.links.len()];
-        let mut rows = PeakRows { bodies: Vec::new(), buildings: [Places::default(); 2], links };
+        let mut rows = PeakRows { bodies: Vec::new(), buildings: [FirstPlaces::default(); 2], links };
         for b in (0..structure.bodies.len()).filter(|_| wanted) {
             let of_body = BodyRows::of(structure, b, rows.blocks());
             for (place, of) in of_body.all() {
@@ -109,7 +109,7 @@ impl PeakRows {
     }
 
     /// The body and the block of a quantity.
-    pub(crate) fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
+    pub(crate) fn block_of(&self, place: usize) -> (&BodyRows, &RowBlock) {
         let body = &self.bodies[self.body_of(place / LANES)];
         (body, &body.blocks[place / LANES - body.first])
     }
@@ -162,7 +162,7 @@ impl BodyRows {
         let pulling: Vec<PeakOf> = pulling.chain(links().map(PeakOf::LinkForce)).collect();
         let count = body.modes.omega.len();
         let block = |quantities: &[PeakOf]| {
-            Block::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(structure, body, *of, m)))
+            RowBlock::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(structure, body, *of, m)))
         };
         let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
         BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
@@ -175,10 +175,10 @@ impl BodyRows {
             row[self.modes.clone()].iter_mut().zip(rows).for_each(|(entry, of)| *entry = of[i]);
             row
         };
-        let over = |block: &Block| {
+        let over = |block: &RowBlock| {
             let of: [_; LANES] =
                 std::array::from_fn(|i| oscillators.rows([&spread(&block.on_q, i), &spread(&block.on_v, i)]));
-            Block::of(self.modes.len(), |i, m| [0, 1].map(|part| of[i][part][self.modes.start + m]))
+            RowBlock::of(self.modes.len(), |i, m| [0, 1].map(|part| of[i][part][self.modes.start + m]))
         };
         let BodyRows { modes, first, moving, pulling, .. } = self;
         let blocks = self.blocks.iter().map(over).collect();
@@ -230,23 +230,23 @@ fn row_of(structure: &Structure, body: &Body, of: PeakOf, m: usize) -> [f64; 2] 
     }
 }
 
-impl Block {
+impl RowBlock {
     /// A block from A and B of each lane and mode.
-    fn of(count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
+    fn of(count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> RowBlock {
         let lanes =
             |part: usize| -> Vec<Lane> { (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect() };
         let (on_q, mut on_v) = (lanes(0), lanes(1));
         if on_v.as_flattened().iter().all(|b| *b == 0.0) {
             on_v.clear();
         }
-        Block { on_q, on_v }
+        RowBlock { on_q, on_v }
     }
 }
 
 /// Sums over modes of a block's rows times q and v at two instants, and of the magnitudes of its entries times bounds.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sums_of(
-    block: &Block,
+    block: &RowBlock,
     [(q, v), (end_q, end_v)]: [(&[f64], &[f64]); 2],
     (of_q, of_v): (&[f64], &[f64]),
 ) -> [Lane; 3] {
@@ -274,11 +274,11 @@ pub fn sums_of(
 
 /// The values of a block.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
+pub fn values_of(block: &RowBlock, q: &[f64], v: &[f64]) -> Lane {
     block.values(q, v)
 }
 
-impl Block {
+impl RowBlock {
     /// The values of the quantities.
     #[inline(always)]
     pub(crate) fn values(&self, q: &[f64], v: &[f64]) -> Lane {

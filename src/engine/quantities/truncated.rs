@@ -18,7 +18,7 @@
 //! Where forces may act on floors all modes are taken for slow: the quick ones follow each force by itself. The absolute
 //! acceleration of a floor is then the sum over all modes and its own force by its mass.
 
-use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows};
+use crate::engine::quantities::rows::{BodyRows, PeakOf, PeakRows, RowBlock};
 use crate::structure::{LANES, Lane, Structure};
 use std::ops::Range;
 
@@ -243,7 +243,7 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 impl TruncatedBlock {
     /// With so many modes of other bodies before the first one in its four.
     fn of(
-        (block, oscillates): (&Block, bool),
+        (block, oscillates): (&RowBlock, bool),
         others: usize,
         (modes, slow): (&[Mode], usize),
         groups: &[Group],
@@ -294,7 +294,7 @@ fn quick_mode(&Mode { w2, w, c, share }: &Mode, entry: f64, pulls: bool) -> Quic
 }
 
 /// The rows over the slow modes, as [`TruncatedBlock::rows`].
-fn slow_rows((Block { on_q, on_v }, oscillates): (&Block, bool), slow: &[Mode]) -> [Vec<Lane>; 2] {
+fn slow_rows((RowBlock { on_q, on_v }, oscillates): (&RowBlock, bool), slow: &[Mode]) -> [Vec<Lane>; 2] {
     let first = |rows: &[Lane]| rows.iter().take(slow.len()).copied().collect();
     match oscillates {
         true => [first(on_q), first(on_v)],

@@ -12,7 +12,7 @@
 //! time: pairs that are closed to rounding and would close each other are solved together without restitution.
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::{Episode, Phase};
+use crate::engine::base::contact::{ContactPhase, Episode};
 use crate::engine::base::storey::Sense;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -189,7 +189,7 @@ impl System {
         for (p, contact) in base.contacts.iter_mut().enumerate().filter(|&(p, _)| !self.pairs[p].law.is_rigid()) {
             contact.rate = self.pairs[p].row.difference(base.coordinates, &base.v).0;
             let engaged = contact.force.is_engaged(contact.penetration, contact.rate);
-            if contact.in_contact() && engaged != (contact.phase == Phase::Engaged) {
+            if contact.in_contact() && engaged != (contact.phase == ContactPhase::Engaged) {
                 contact.change_branch();
             }
         }
@@ -201,7 +201,7 @@ impl System {
         let contact = &mut base.contacts[p];
         contact.rate = 0.0;
         contact.begin(time, 0.0);
-        contact.phase = Phase::Held;
+        contact.phase = ContactPhase::Held;
         contact.reaction = 0.0;
         contact.tracked = false;
         contact.undecided = contact.let_go;

@@ -7,7 +7,7 @@ use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::pairs::packing::{PackedBlocks, PackedPairs};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::Coefficients;
-use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
@@ -143,7 +143,7 @@ impl ClosedPairs {
             let depth = block.read(powers);
             let force = (!block.is_elastic()).then(|| block.read_force(powers));
             for (lane, pair) in members.lanes() {
-                let highest = |terms: &[Each], end: Reading, sign: f64| {
+                let highest = |terms: &[Each], end: Evaluation, sign: f64| {
                     let start = (sign * terms[0][lane], sign * terms[1][lane]);
                     roots::upper_bound(start, (sign * end.value, sign * end.slope), powers.x, end.fourth)
                 };

@@ -4,7 +4,7 @@
 use crate::contact::Guard;
 use crate::contact::taylor::BlockReading;
 use crate::engine::base::Base;
-use crate::engine::base::contact::{Contact, Phase};
+use crate::engine::base::contact::{Contact, ContactPhase};
 use crate::engine::base::planned::{Event, First};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -92,7 +92,7 @@ impl System {
         scalar: &mut Coefficients,
     ) -> Option<f64> {
         let (MotionSeries { scale, time_map, .. }, end) = (&solution.series, solution.end.x);
-        let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
+        let sense = if contact.phase == ContactPhase::Engaged { -1.0 } else { 1.0 };
         let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), time_map.rate(end));
         // The polynomial is the guard times dt/dx, which is positive and so keeps the sign.
         let at_rest = guard.value(contact.penetration, 0.0).abs() * (stretch - 1.0).abs();

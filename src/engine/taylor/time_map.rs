@@ -1,6 +1,6 @@
 //! Reach of a Taylor step in the x of a time map, in which the motion near an entry or a release is analytic.
 
-use crate::engine::base::contact::{Contact, Phase};
+use crate::engine::base::contact::{Contact, ContactPhase};
 use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -41,7 +41,7 @@ impl System {
     /// good.
     fn time_map(&self, base: &Base, solution: &Solution, reach: f64) -> Option<(TimeMap, f64)> {
         let is_behind = |(_, contact): &(usize, &Contact)| {
-            contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
+            contact.phase == ContactPhase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
         let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
         let since = ages.fold(f64::INFINITY, f64::min) / solution.series.scale;

@@ -9,7 +9,7 @@ use super::motions::{
     Case, Comparison, Damping, Ground, ROUNDING, Random, Start, any_system, course, largest, limit_storey, size,
     threshold, unit_system,
 };
-use crate::collocation::Solution as WindowSolution;
+use crate::collocation::SolvedWindow;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::storey::Storey;
 use crate::engine::flight::Flight;
@@ -219,7 +219,7 @@ fn no_storey_yields_in_a_window_that_is_called_elastic() {
         (work.load, work.slope) = (load.clone(), slope.clone());
         let mut window = Window::default();
         (window.contacts[0], window.equation.closed, window.greatest[0]) = (0, 1, force);
-        window.solution = WindowSolution { length: h, ..WindowSolution::default() };
+        window.solution = SolvedWindow { length: h, ..SolvedWindow::default() };
         let now = dot(&row.of_q, &base.q).abs();
         let bound = threshold(now, |limit| {
             limit_storey(system, limit);

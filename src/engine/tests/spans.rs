@@ -9,7 +9,7 @@ use crate::engine::bounds::flights::{Flights, Load, set_energies};
 use crate::engine::bounds::span::{ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::flight::log::FlightLog;
-use crate::engine::quantities::rows::{Block, PeakOf, values_of};
+use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
 use crate::structure::{Interval, LANES, Lane, Scratch};
@@ -268,8 +268,9 @@ fn no_quantity_leaves_its_envelope() {
             let angle = random.between(0.0, 6.3);
             (q[mode], v[mode]) = (q[mode] + angle.cos(), v[mode] + structure.omega2[mode].sqrt() * angle.sin());
             let length = random.between(1.0, 2.0) * std::f64::consts::TAU / structure.omega2[mode].sqrt();
-            let of_block =
-                |block: &Block, q: &[f64], v: &[f64]| values_of(block, &q[rows.modes.clone()], &v[rows.modes.clone()]);
+            let of_block = |block: &RowBlock, q: &[f64], v: &[f64]| {
+                values_of(block, &q[rows.modes.clone()], &v[rows.modes.clone()])
+            };
             let mut reached = vec![[0.0_f64; LANES]; rows.blocks.len()];
             let mut end = [q.clone(), v.clone()];
             for k in 0..=512 {

@@ -6,10 +6,10 @@
 //! so curves it downwards, that force may be left out. An open pair's penetration must not rise to 0: there downward
 //! curvature counts.
 
-use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
+use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, SolvedWindow, Tables};
 use crate::contact::Guard;
 use crate::engine::base::Base;
-use crate::engine::base::contact::{Contact, Phase};
+use crate::engine::base::contact::{Contact, ContactPhase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::free::FreeTerms;
@@ -41,7 +41,8 @@ impl Windows {
             let terms = &equation.free[place][..equation.terms];
             let of_kernels = self.of_kernels(system, window, window.contacts[place]);
             let curvature = window.curvature(curved, terms, (kernels, &of_kernels), Some(place));
-            let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], curvature, ending };
+            let passage =
+                PairPath { window, place, contact: &base.contacts[window.contacts[place]], curvature, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
             }
@@ -227,7 +228,7 @@ impl Approach<'_> {
 }
 
 /// One pair over a window.
-struct Passage<'a> {
+struct PairPath<'a> {
     window: &'a Window,
     /// Index of the pair in the window.
     place: usize,
@@ -238,7 +239,7 @@ struct Passage<'a> {
 }
 
 /// The piece of a window from one node to the next.
-struct Piece {
+struct Stride {
     /// Its length, s.
     gone: f64,
     /// Penetration at its start, m.
@@ -262,24 +263,24 @@ fn stays_above((theta, length): (&[f64], f64), depth: &[f64], curvature: f64) ->
     holds
 }
 
-impl Passage<'_> {
+impl PairPath<'_> {
     /// Whether something holds for all pieces: from the start to the first node, between nodes, and from the last one
     /// to the end.
     #[inline(always)]
-    fn all(&self, mut holds: impl FnMut(Piece) -> bool) -> bool {
+    fn all(&self, mut holds: impl FnMut(Stride) -> bool) -> bool {
         let Window { solution, .. } = self.window;
         let theta = &Tables::of(solution.map, solution.rule).theta[..solution.rule.count()];
         let (depth, rate) = (&solution.depth[self.place], &solution.rate[self.place]);
         let (mut time, mut from) = (0.0, self.start());
         for ((theta, to), rate) in theta.iter().zip(depth).zip(rate) {
             let next = theta * solution.length;
-            if !holds(Piece { gone: next - time, from, to: *to, rate: *rate, is_last: false }) {
+            if !holds(Stride { gone: next - time, from, to: *to, rate: *rate, is_last: false }) {
                 return false;
             }
             (time, from) = (next, *to);
         }
         let (to, rate) = solution.end[self.place];
-        holds(Piece { gone: solution.length - time, from, to, rate, is_last: true })
+        holds(Stride { gone: solution.length - time, from, to, rate, is_last: true })
     }
 
     /// Penetration at the start, m.
@@ -293,7 +294,7 @@ impl Passage<'_> {
     /// Whether the pair stays in contact, and on its side of the guard.
     fn stays_in_contact(&self) -> bool {
         let is_released = self.ending == Ending::Release(self.place);
-        let Solution { map, rule, length, ref depth, ref end, .. } = self.window.solution;
+        let SolvedWindow { map, rule, length, ref depth, ref end, .. } = self.window.solution;
         let theta = &Tables::of(map, rule).theta[..rule.count()];
         let (depth, start, (end, _)) = (&depth[self.place][..rule.count()], self.start(), end[self.place]);
         let (before, after) = (theta[0] * length, length - theta[theta.len() - 1] * length);
@@ -312,7 +313,7 @@ impl Passage<'_> {
             && stays_above((theta, length), depth, self.curvature)
             && match self.contact.force.guard {
                 None => true,
-                Some(_) if self.contact.phase == Phase::Slack => self.recedes(),
+                Some(_) if self.contact.phase == ContactPhase::Slack => self.recedes(),
                 Some(guard) => self.is_engaged(&guard),
             }
     }
@@ -335,7 +336,7 @@ impl Passage<'_> {
     }
 
     /// Least penetration on a piece of a pair that stays in contact, m.
-    fn least(&self, piece: &Piece) -> f64 {
+    fn least(&self, piece: &Stride) -> f64 {
         piece.from.min(piece.to) - 0.125 * self.curvature * piece.gone * piece.gone
     }
 

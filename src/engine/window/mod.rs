@@ -14,7 +14,7 @@ pub mod solution;
 pub mod spring;
 pub mod trial;
 
-use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables, Workspace as WindowWorkspace};
+use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables, WindowWorkspace};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Event, Planned};

@@ -1,7 +1,7 @@
 //! The effect of the contact forces on many modes over a window that takes the whole time between two samples: by the
 //! forces at the nodes, with a matrix that is made once.
 
-use crate::collocation::{Map, POWERS, Row, Rule, Tables};
+use crate::collocation::{AtNodes, Map, NodeCount, POWERS, Tables};
 use crate::structure::{ImpulseResponse, LANES, Lane};
 
 /// Matrices of one pair for windows of one length without a map.
@@ -15,20 +15,25 @@ pub struct PreparedPush {
 /// Node by node for each block of modes: displacement and velocity that a force of 1 N there takes away.
 #[derive(Clone, Debug)]
 struct NodeMatrix {
-    rule: Rule,
+    rule: NodeCount,
     entries: Vec<[Lane; 2]>,
 }
 
 impl PreparedPush {
     /// For a pair with that row of the modal Jacobian.
     pub fn new(response: &ImpulseResponse, row: &[f64], length: f64) -> PreparedPush {
-        let by_rule = [Rule::Eight, Rule::Twelve].map(|rule| NodeMatrix::new(response, row, length, rule));
+        let by_rule = [NodeCount::Eight, NodeCount::Twelve].map(|rule| NodeMatrix::new(response, row, length, rule));
         PreparedPush { length, by_rule }
     }
 
     /// Subtracts the effect of forces at the nodes of a whole window from a motion; returns whether it is prepared for
     /// that window.
-    pub fn push(&self, (map, rule, length): (Map, Rule, f64), force: &Row, motion: (&mut [f64], &mut [f64])) -> bool {
+    pub fn push(
+        &self,
+        (map, rule, length): (Map, NodeCount, f64),
+        force: &AtNodes,
+        motion: (&mut [f64], &mut [f64]),
+    ) -> bool {
         let matrix = self.by_rule.iter().find(|matrix| matrix.rule == rule);
         let Some(matrix) = matrix.filter(|_| map == Map::Plain && length == self.length) else { return false };
         push(&matrix.entries, &force[..rule.count()], motion);
@@ -37,7 +42,7 @@ impl PreparedPush {
 }
 
 impl NodeMatrix {
-    fn new(response: &ImpulseResponse, row: &[f64], length: f64, rule: Rule) -> NodeMatrix {
+    fn new(response: &ImpulseResponse, row: &[f64], length: f64, rule: NodeCount) -> NodeMatrix {
         let whole = &Tables::of(Map::Plain, rule).whole;
         let entry = |m: usize, j: usize| {
             let (mut moved, mut slowed, mut unit) = (0.0, 0.0, length);

@@ -1,7 +1,7 @@
 //! The dense solution over a window (see [`crate::collocation`]): its evaluation, and the contacts along it.
 
 use crate::collocation::{
-    Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, nodes,
+    AtNodes, Equation, Kernel, MOST_PAIRS, NODES, NodeCount, Nodes, POWERS, SolvedWindow, Tables, dot, fours, nodes,
 };
 use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::system::System;
@@ -27,7 +27,7 @@ pub struct Window {
     /// The integral equation of the penetrations.
     pub equation: Equation,
     /// Penetrations, rates and forces at the nodes.
-    pub solution: Solution,
+    pub solution: SolvedWindow,
     /// Bounds on the magnitudes of the forces, N, also between the nodes.
     pub greatest: [f64; MOST_PAIRS],
     /// Moments of the forces over the whole window.
@@ -35,13 +35,13 @@ pub struct Window {
 }
 
 /// The part of a window up to some time, with quadrature nodes of its own.
-struct Part {
+struct WindowPart {
     /// Times of the nodes since the start of the window, s.
-    times: Row,
+    times: AtNodes,
     /// Weights for integrals over time, s.
-    weights: Row,
+    weights: AtNodes,
     /// The nodes in the window's x.
-    x: Row,
+    x: AtNodes,
 }
 
 impl Window {
@@ -51,12 +51,12 @@ impl Window {
     }
 
     /// The part until `elapsed`, s, with the nodes of a rule.
-    fn part(&self, elapsed: f64, rule: Rule) -> Part {
-        let Solution { map, length, .. } = self.solution;
+    fn part(&self, elapsed: f64, rule: NodeCount) -> WindowPart {
+        let SolvedWindow { map, length, .. } = self.solution;
         let end = map.inverse((elapsed / length).min(1.0));
         let nodes = nodes(rule);
         let x = nodes.x.map(|x| x * end);
-        let mut part = Part { times: [0.0; NODES], weights: [0.0; NODES], x };
+        let mut part = WindowPart { times: [0.0; NODES], weights: [0.0; NODES], x };
         for (i, (x, weight)) in x.iter().zip(&nodes.weight).enumerate().take(nodes.count) {
             let (theta, rate) = map.at(*x);
             part.times[i] = length * theta;
@@ -68,14 +68,14 @@ impl Window {
     /// Times, s, and weights, s, of a quadrature until `elapsed` for the whole motion. It may be faster than the
     /// contact's, for which the window's own nodes are made: these would be too few.
     pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
-        let part = self.part(elapsed, Rule::Sixteen);
+        let part = self.part(elapsed, NodeCount::Sixteen);
         part.times.into_iter().zip(part.weights)
     }
 
     /// Works out the moments over the whole window and the bounds on the forces, once a solution has been found.
     pub fn close(&mut self) {
         let Equation { closed, powers, .. } = self.equation;
-        let Solution { map, rule, length, ref force, .. } = self.solution;
+        let SolvedWindow { map, rule, length, ref force, .. } = self.solution;
         let whole = &Tables::of(map, rule).whole;
         for ((moments, greatest), force) in self.whole.iter_mut().zip(&mut self.greatest).zip(force).take(closed) {
             weigh_whole(&whole[..powers], force, length, moments);
@@ -86,7 +86,7 @@ impl Window {
     /// The moments until `elapsed`; worked out in `room` unless they are those of the whole window.
     pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Option<Moments>) -> &'a Moments {
         let Equation { closed, powers, .. } = self.equation;
-        let Solution { rule, length, ref force, .. } = self.solution;
+        let SolvedWindow { rule, length, ref force, .. } = self.solution;
         if elapsed == length {
             return &self.whole;
         }
@@ -135,14 +135,14 @@ impl Window {
 }
 
 /// The largest magnitude of a number at the nodes.
-fn largest(row: &Row) -> f64 {
+fn largest(row: &AtNodes) -> f64 {
     let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(most[i], row[i].abs())));
     sizes.into_iter().fold(0.0, larger)
 }
 
 /// The moments of one force over its window.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWERS]) {
+fn weigh_whole(whole: &[AtNodes], force: &AtNodes, length: f64, moments: &mut [f64; POWERS]) {
     let mut power = length;
     for (moment, whole) in moments.iter_mut().zip(whole) {
         *moment = power * dot(whole, force);
@@ -152,7 +152,7 @@ fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWE
 
 /// The moments of one force over a part of its window.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f64]) {
+fn weigh(nodes: &Nodes, force: &AtNodes, part: &WindowPart, elapsed: f64, moments: &mut [f64]) {
     let (mut pushed, left) = (nodes.interpolant(force).at(&part.x), part.times.map(|time| elapsed - time));
     for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
         *pushed *= weight;
@@ -197,7 +197,7 @@ impl Window {
     /// The motion at the end, with prepared matrices where there are any for this window.
     pub fn end_by_nodes(&self, system: &System, windows: &Windows, free: FreeMotion, (q, v): (&mut [f64], &mut [f64])) {
         let Some(response) = &system.impulse_response else { return };
-        let Solution { map, rule, length, ref force, .. } = self.solution;
+        let SolvedWindow { map, rule, length, ref force, .. } = self.solution;
         free.evaluate(system, length, (q, v));
         for ((&p, force), moments) in self.contacts.iter().zip(force).zip(&self.whole).take(self.equation.closed) {
             if !windows.prepared_pushes[p].push((map, rule, length), force, (q, v)) {
@@ -221,7 +221,7 @@ impl Contact {
         let mut passage = Passage { impulse: moments[place][0], ..Passage::default() };
         let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
         if law.is_damped() {
-            let sum = |weights: &Row, d: &Row, v: &Row| dot(weights, &law.damping_powers(d, v));
+            let sum = |weights: &AtNodes, d: &AtNodes, v: &AtNodes| dot(weights, &law.damping_powers(d, v));
             passage.work = if is_whole {
                 solution.length * sum(&Tables::of(solution.map, solution.rule).weight, depth, rate)
             } else {
@@ -275,7 +275,7 @@ struct FollowedPart {
 impl FollowedPart {
     /// x of the maximum of a quantity with these `values` at the nodes and `end` at the end, if it exceeds `known`. The
     /// start is no candidate.
-    fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
+    fn highest(&self, values: &AtNodes, end: f64, known: f64) -> Option<f64> {
         let (nodes, last) = (&self.nodes.x[..self.nodes.count], self.last);
         let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { nodes.len() };
         let (mut best, mut at) = (end, before);
@@ -301,7 +301,7 @@ impl FollowedPart {
 
 /// (x, value) of the maximum of the polynomial through values at the nodes between two x.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn summit(nodes: &Nodes, values: &Row, ends: [f64; 2]) -> Option<(f64, f64)> {
+fn summit(nodes: &Nodes, values: &AtNodes, ends: [f64; 2]) -> Option<(f64, f64)> {
     let interpolant = nodes.interpolant(values);
     let read = |x: f64| interpolant.knot(x);
     let ends = ends.map(read);

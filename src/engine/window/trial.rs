@@ -1,6 +1,6 @@
 //! The window to try first: as long as the laws in it allow, or up to the next event if that is near.
 
-use crate::collocation::{Ending, Frame, Map, Rule};
+use crate::collocation::{Ending, Frame, Map, NodeCount};
 use crate::contact::Force;
 use crate::engine::base::Base;
 use crate::engine::system::System;
@@ -34,7 +34,7 @@ pub struct Trial {
     /// Map from x in 0..1 to the share of the length: nodes are denser at a singularity.
     pub map: Map,
     /// The smallest rule that it may use.
-    pub least: Rule,
+    pub least: NodeCount,
     /// Length, s; with an event, the estimate of its time.
     pub length: f64,
     /// The event at its end.
@@ -53,9 +53,9 @@ impl Trial {
         let Trial { map, length, ending, .. } = self;
         let [eight, twelve] = reach_of_fewer(map);
         let rule = match length / self.reach {
-            share if share < eight => Rule::Eight,
-            share if share < twelve => Rule::Twelve,
-            _ => Rule::Sixteen,
+            share if share < eight => NodeCount::Eight,
+            share if share < twelve => NodeCount::Twelve,
+            _ => NodeCount::Sixteen,
         };
         Frame { map, rule: rule.max(self.least), length, ending }
     }
@@ -122,7 +122,7 @@ impl Windows {
             }
         }
         // With fewer nodes the length depends on a higher power of the tolerance.
-        let (mut reach, least) = (self.length_factor * longest, Rule::Eight);
+        let (mut reach, least) = (self.length_factor * longest, NodeCount::Eight);
         longest = longest.min(self.longest(system));
         if system.free_rows.is_some() && changes_little(base, window, longest.min(remaining)) {
             reach *= LITTLE_CHANGE.1;
@@ -180,7 +180,7 @@ fn reach_of_fewer(map: Map) -> [f64; 2] {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::engine::base::contact::Phase;
+    use crate::engine::base::contact::ContactPhase;
     use crate::engine::base::peaks::Peaks;
     use crate::scene::Scene;
 
@@ -196,7 +196,7 @@ mod tests {
             );
             let system = System::of(&Scene::from_toml(&scene).unwrap(), None).unwrap();
             let (base, mut window) = (system.start(0.0, Peaks::default(), None), Window::default());
-            assert_eq!(base.contacts[0].phase, Phase::Engaged);
+            assert_eq!(base.contacts[0].phase, ContactPhase::Engaged);
             let windows = Windows::of(&system).unwrap();
             let equation = &mut window.equation;
             (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());

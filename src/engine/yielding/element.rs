@@ -7,7 +7,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::bounds::certificate::stays_below;
-use crate::engine::pairs::row::Row;
+use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::yielding::lift::Lift;
 use crate::scene::{NetStorey, Place, Scene};
@@ -41,7 +41,7 @@ pub(crate) struct Element {
     pub critical: Option<f64>,
     pub collapse: Option<f64>,
     /// The row of its drift. A force along it pushes the floors of a storey apart.
-    pub row: Row,
+    pub row: WeightRow,
     /// How its plastic drift moves the position of rest.
     lift: Lift,
 }
@@ -85,7 +85,7 @@ impl Element {
         let building = scene.building(side);
         let of = building.net_storey(storey)?;
         let places: Vec<(Place, f64)> = structure.floors.places(side).drift(storey).collect();
-        let row = Row::of(structure, places.iter().map(|&(place, weight)| (side, place, weight)));
+        let row = WeightRow::of(structure, places.iter().map(|&(place, weight)| (side, place, weight)));
         let lift = match structure.body(side).is_linked {
             true => Lift::all((1.0 - of.ratio) * of.stiffness, &row.modes, structure),
             false => Lift::above(structure, (side, storey), 1.0 - of.net_ratio()),
@@ -102,12 +102,12 @@ impl Element {
         let (link, slip) = (&structure.links[number], scene.links[number].slip?);
         let spring = NetStorey { stiffness: link.stiffness, force: slip.force, ratio: slip.ratio, gravity: 0.0 };
         let lift = Lift::all((1.0 - slip.ratio) * link.stiffness, &link.row, structure);
-        let row = Row::over(structure, link.row.clone(), link.floors.iter().copied());
+        let row = WeightRow::over(structure, link.row.clone(), link.floors.iter().copied());
         Some(Element::on((ElementOf::Link(number), spring), row, lift))
     }
 
     /// An element on a row.
-    fn on((place, of): (ElementOf, NetStorey), row: Row, lift: Lift) -> Element {
+    fn on((place, of): (ElementOf, NetStorey), row: WeightRow, lift: Lift) -> Element {
         Element {
             place,
             of,

@@ -7,7 +7,7 @@ use crate::fmi::common::fence::{Function, go_on, v3, with_instance};
 use crate::fmi::common::instance::{Instance, is_given_up, lend};
 use crate::fmi::common::types::Component;
 use crate::fmi::common::updater::Updater;
-use crate::slave::{Call, Part, Refusal, Status, Update};
+use crate::slave::{Call, Refusal, Status, StepPart, Update};
 use std::ffi::c_int;
 
 const STEP: Function = v3(Call::DoStep);
@@ -73,15 +73,15 @@ impl Results {
     unsafe fn settle(
         &self,
         instance: &Instance,
-        part: Result<Part, Refusal>,
+        part: Result<StepPart, Refusal>,
         turn: &mut Option<(Updater, Update)>,
     ) -> Result<Status, Refusal> {
         let stepped = match part {
-            Ok(Part::Update(update)) => {
+            Ok(StepPart::Update(update)) => {
                 *turn = instance.updater.map(|updater| (updater, update));
                 return Ok(Status::Ok);
             }
-            Ok(Part::Done(stepped)) => Ok(stepped),
+            Ok(StepPart::Done(stepped)) => Ok(stepped),
             Err(refusal) => Err(refusal),
         };
         let (needs_event_mode, is_early) =

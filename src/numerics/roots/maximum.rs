@@ -4,7 +4,7 @@ use super::hermite::{End, NARROWEST};
 use super::terms::Terms;
 use super::turning_point::turning_point;
 use crate::numerics::polynomial::Coefficients;
-use crate::numerics::powers::Reading;
+use crate::numerics::powers::Evaluation;
 
 /// (x, value) of the maximum of a polynomial over 0..=end if it exceeds `known`, from its value and slope at 0 and its
 /// `reading` at the end. Where the maximum may lie inside, `copy` is called for the coefficients: it writes them and
@@ -12,7 +12,7 @@ use crate::numerics::powers::Reading;
 pub(crate) fn maximum_above(
     (value, slope): (f64, f64),
     end: f64,
-    reading: &Reading,
+    reading: &Evaluation,
     known: f64,
     copy: impl FnOnce(&mut Coefficients) -> usize,
 ) -> Option<(f64, f64)> {

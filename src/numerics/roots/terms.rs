@@ -17,33 +17,33 @@ pub(super) struct Terms {
 }
 
 /// Values of P0, P1, P2 and P3, or four coefficients, one for each of them.
-pub(super) type Block = [f64; BLOCK];
+pub(super) type FourTerms = [f64; BLOCK];
 
 /// The powers of x up to y = x^[`BLOCK`].
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct LowPowers {
     x: f64,
     x2: f64,
     x3: f64,
     y: f64,
 }
 
-impl Place {
+impl LowPowers {
     #[inline(always)]
-    pub(super) fn at(x: f64) -> Place {
+    pub(super) fn at(x: f64) -> LowPowers {
         let x2 = x * x;
-        Place { x, x2, x3: x * x2, y: x2 * x2 }
+        LowPowers { x, x2, x3: x * x2, y: x2 * x2 }
     }
 
     /// P0 + x P1 + x^2 P2 + x^3 P3, from the values of the four.
     #[inline(always)]
-    pub(super) fn total(self, [a, b, c, d]: Block) -> f64 {
+    pub(super) fn total(self, [a, b, c, d]: FourTerms) -> f64 {
         (a + c * self.x2) + (b * self.x + d * self.x3)
     }
 
     /// P1 + 2 x P2 + 3 x^2 P3: the slope at constant y, from the values of the four.
     #[inline(always)]
-    pub(super) fn slope(self, [_, b, c, d]: Block) -> f64 {
+    pub(super) fn slope(self, [_, b, c, d]: FourTerms) -> f64 {
         (b + 3.0 * d * self.x2) + 2.0 * c * self.x
     }
 }
@@ -70,7 +70,7 @@ impl Terms {
 
     /// The coefficients in blocks.
     #[inline(always)]
-    pub(super) fn blocks(&self) -> &[Block] {
+    pub(super) fn blocks(&self) -> &[FourTerms] {
         &self.all.as_chunks::<BLOCK>().0[..self.blocks]
     }
 
@@ -82,7 +82,7 @@ impl Terms {
     /// Value at x.
     #[inline(always)]
     pub(super) fn value(&self, x: f64) -> f64 {
-        let at = Place::at(x);
+        let at = LowPowers::at(x);
         let mut value = [0.0; BLOCK];
         for block in self.blocks().iter().rev() {
             value = each(|i| value[i] * at.y + block[i]);
@@ -93,7 +93,7 @@ impl Terms {
     /// Value and slope at x.
     #[inline(always)]
     pub(super) fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        value_and_slope(self.blocks(), Place::at(x))
+        value_and_slope(self.blocks(), LowPowers::at(x))
     }
 
     /// Value and slope at x, with the x.
@@ -105,7 +105,7 @@ impl Terms {
 
     /// Sum of the magnitudes of all terms at x >= 0.
     pub(super) fn size(&self, x: f64) -> f64 {
-        let at = Place::at(x);
+        let at = LowPowers::at(x);
         let mut size = [0.0; BLOCK];
         for block in self.blocks().iter().rev() {
             size = each(|i| size[i] * at.y + block[i].abs());
@@ -116,7 +116,7 @@ impl Terms {
 
 /// Value and slope at a point, as [`Terms::value_and_slope`], from the blocks.
 #[inline(always)]
-pub(super) fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
+pub(super) fn value_and_slope(blocks: &[FourTerms], at: LowPowers) -> (f64, f64) {
     let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
     for block in blocks.iter().rev() {
         by_y = each(|i| by_y[i] * at.y + value[i]);
@@ -127,8 +127,8 @@ pub(super) fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
 
 /// See [`Terms::at`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn point(blocks: &[Block], x: f64) -> End {
-    let at = Place::at(x);
+pub fn point(blocks: &[FourTerms], x: f64) -> End {
+    let at = LowPowers::at(x);
     let (value, slope) = value_and_slope(blocks, at);
     let mut fourth = [0.0; BLOCK];
     let factors = FOURTH.as_chunks::<BLOCK>().0;

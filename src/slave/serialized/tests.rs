@@ -77,7 +77,7 @@ fn body_of(slave: &mut Slave) -> Vec<u8> {
 
 /// The run of a body, as text.
 fn state_text(body: &[u8]) -> String {
-    match postcard::from_bytes::<Body<'_>>(body).unwrap().run {
+    match postcard::from_bytes::<SnapshotBody<'_>>(body).unwrap().run {
         BodyRun::NotStarted(start) => format!("{start:?}"),
         BodyRun::Started(state) => format!("{state:?}"),
     }
@@ -165,8 +165,8 @@ fn what_cannot_be_is_refused_with_what_it_is() {
     let body = body_of(&mut slave);
     let (state, time) = (state_text(&body), slave.run.time());
     assert!(state.contains("Engaged"), "in mid-contact: {state}");
-    let altered = |alter: &dyn Fn(&mut Body<'_>)| {
-        let mut altered: Body<'_> = postcard::from_bytes(&body).unwrap();
+    let altered = |alter: &dyn Fn(&mut SnapshotBody<'_>)| {
+        let mut altered: SnapshotBody<'_> = postcard::from_bytes(&body).unwrap();
         alter(&mut altered);
         postcard::to_allocvec(&altered).unwrap()
     };
@@ -381,8 +381,8 @@ fn a_state_of_a_scene_with_other_floors_is_refused_by_its_sizes() {
     };
     let (mut one, mut two) = (of("1.0, 1.0"), of("1.0"));
     let (body, own) = (body_of(&mut one), body_of(&mut two));
-    let mut mixed: Body<'_> = postcard::from_bytes(&own).unwrap();
-    mixed.run = postcard::from_bytes::<Body<'_>>(&body).unwrap().run;
+    let mut mixed: SnapshotBody<'_> = postcard::from_bytes(&own).unwrap();
+    mixed.run = postcard::from_bytes::<SnapshotBody<'_>>(&body).unwrap().run;
     let bytes = wrap(&two.fingerprint, &postcard::to_allocvec(&mixed).unwrap());
     let problem = two.deserialize_state(&bytes, None).unwrap_err().problems.join("; ");
     assert!(problem.contains("other floors, contacts, inputs or outputs"), "{problem}");
@@ -422,7 +422,7 @@ fn changes_of_parameters_are_checked_like_a_master_s() {
     slave.reset();
     let own = body_of(&mut slave);
     let mut with = |numbers: &[(u32, f64)], record: Option<(String, crate::record::Record)>| {
-        let mut body: Body<'_> = postcard::from_bytes(&own).unwrap();
+        let mut body: SnapshotBody<'_> = postcard::from_bytes(&own).unwrap();
         body.changes = postcard::from_bytes(&postcard::to_allocvec(&(numbers, record)).unwrap()).unwrap();
         let bytes = wrap(&slave.fingerprint, &postcard::to_allocvec(&body).unwrap());
         slave.deserialize_state(&bytes, None).map_err(|refusal| refusal.problems.join("; "))

@@ -7,23 +7,23 @@ use crate::structure::equations::Structure;
 use crate::structure::flight_modes::FlightModes;
 
 /// One number for each node.
-pub(crate) type Nodes = [f64; TWELVE_POINTS.len()];
+pub(crate) type AtPoints = [f64; TWELVE_POINTS.len()];
 
 /// Memory for motions at all nodes, and the powers of the dashpots of links, W.
 #[derive(Clone, Debug)]
 pub struct NodeRoom {
-    q: Vec<Nodes>,
-    v: Vec<Nodes>,
-    of_modes: Vec<Nodes>,
-    pub dashpots: Vec<Nodes>,
+    q: Vec<AtPoints>,
+    v: Vec<AtPoints>,
+    of_modes: Vec<AtPoints>,
+    pub dashpots: Vec<AtPoints>,
 }
 
 impl NodeRoom {
     /// For a structure; empty where damping couples no modes.
     pub fn new(structure: &Structure) -> NodeRoom {
         let lanes = if structure.is_classical() { 0 } else { structure.lanes };
-        let [q, v, of_modes] = [(); 3].map(|()| vec![Nodes::default(); lanes]);
-        NodeRoom { q, v, of_modes, dashpots: vec![Nodes::default(); structure.links.len()] }
+        let [q, v, of_modes] = [(); 3].map(|()| vec![AtPoints::default(); lanes]);
+        NodeRoom { q, v, of_modes, dashpots: vec![AtPoints::default(); structure.links.len()] }
     }
 }
 
@@ -35,9 +35,9 @@ impl MotionSeries {
         &self,
         structure: &Structure,
         oscillators: Option<&FlightModes>,
-        x: &Nodes,
+        x: &AtPoints,
         room: &mut NodeRoom,
-    ) -> [Nodes; 2] {
+    ) -> [AtPoints; 2] {
         if structure.is_classical() {
             return powers_of_single_modes(self, structure, x);
         }
@@ -55,12 +55,12 @@ impl MotionSeries {
 }
 
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn powers_of_single_modes(series: &MotionSeries, structure: &Structure, x: &Nodes) -> [Nodes; 2] {
-    let (mut momentum, mut viscous) = (Nodes::default(), Nodes::default());
+fn powers_of_single_modes(series: &MotionSeries, structure: &Structure, x: &AtPoints) -> [AtPoints; 2] {
+    let (mut momentum, mut viscous) = (AtPoints::default(), AtPoints::default());
     let per_second = 1.0 / series.scale;
     let modes = structure.participation.iter().zip(&structure.damping).take(structure.modes_of_both());
     for (m, (participation, c)) in modes.enumerate() {
-        let mut v = Nodes::default();
+        let mut v = AtPoints::default();
         for n in (1..=series.order.min(MAX_TERMS - 1)).rev() {
             let term = series.coefficients[n * series.lanes + m] * COUNT[n];
             for (v, x) in v.iter_mut().zip(x) {
@@ -78,19 +78,24 @@ fn powers_of_single_modes(series: &MotionSeries, structure: &Structure, x: &Node
 
 /// Writes the velocities at all nodes, and, where they are asked for, the displacements.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn set_motions(series: &MotionSeries, x: &Nodes, with_displacements: bool, (q, v): (&mut [Nodes], &mut [Nodes])) {
+fn set_motions(
+    series: &MotionSeries,
+    x: &AtPoints,
+    with_displacements: bool,
+    (q, v): (&mut [AtPoints], &mut [AtPoints]),
+) {
     let per_second = 1.0 / series.scale;
     let order = series.order.min(MAX_TERMS - 1);
     let term = |n: usize, m: usize| series.coefficients[n * series.lanes + m];
     for m in 0..series.lanes {
-        let mut rate = Nodes::default();
+        let mut rate = AtPoints::default();
         for n in (1..=order).rev() {
             let slope = term(n, m) * COUNT[n];
             (0..x.len()).for_each(|i| rate[i] = rate[i] * x[i] + slope);
         }
         v[m] = rate.map(|rate| rate * per_second);
         if with_displacements {
-            let mut value = Nodes::default();
+            let mut value = AtPoints::default();
             for n in (0..=order).rev() {
                 let term = term(n, m);
                 (0..x.len()).for_each(|i| value[i] = value[i] * x[i] + term);
