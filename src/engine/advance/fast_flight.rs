@@ -6,8 +6,8 @@ use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
-use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
-use crate::engine::flight::log::{FlightLog, Logged};
+use crate::engine::flight::fast_account::SegmentAccount;
+use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
@@ -135,61 +135,61 @@ fn fly_over(
     until: f64,
     logs: [Option<&mut FlightLog>; 2],
 ) -> u64 {
-    let (account, length) = (EnergyAccount::of(&model.system, ground, base), base.segment.length);
-    match (account, logs) {
-        (Some(account), [None, None]) => fly_cleared(model, ground, (base, step), account, segments, until),
-        (None, [None, None]) => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
-        (Some(account), logs) => {
-            fly_cleared(model, ground, (base, step), Logged { account, logs, length }, segments, until)
-        }
-        (None, logs) => {
-            fly_cleared(model, ground, (base, step), Logged { account: NoAccount, logs, length }, segments, until)
-        }
+    let mut account = SegmentAccount::of(&model.system, ground, base, logs);
+    if !account.notes_any() {
+        return fly_cleared::<false>(model, ground, (base, step), &mut account, segments, until);
     }
+    let flown = fly_cleared::<true>(model, ground, (base, step), &mut account, segments, until);
+    if flown > 0 {
+        account.store(base);
+    }
+    flown
 }
 
+/// The same, with or without notes in the account.
 #[inline(always)]
-fn fly_cleared(
+fn fly_cleared<const IS_NOTED: bool>(
     model: &Model,
     ground: &GroundMotion,
     (base, step): (&mut Base, &mut Step),
-    account: impl SegmentAccount,
+    account: &mut SegmentAccount,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
     let is_simple = ground.is_in_record(segments.start);
     match model.system.structure.lanes / LANES {
-        1 if is_simple => fly_few::<1>(model, ground, base, account, segments, until),
-        2 if is_simple => fly_few::<2>(model, ground, base, account, segments, until),
-        3 if is_simple => fly_few::<3>(model, ground, base, account, segments, until),
-        _ => fly_many(model, ground, (base, step), account, segments, until),
+        1 if is_simple => fly_few::<1, IS_NOTED>(model, ground, base, account, segments, until),
+        2 if is_simple => fly_few::<2, IS_NOTED>(model, ground, base, account, segments, until),
+        3 if is_simple => fly_few::<3, IS_NOTED>(model, ground, base, account, segments, until),
+        _ => fly_many::<IS_NOTED>(model, ground, (base, step), account, segments, until),
     }
 }
 
 /// The loop for any number of modes, and after the record's end.
 #[inline(always)]
-fn fly_many(
+fn fly_many<const IS_NOTED: bool>(
     model: &Model,
     ground: &GroundMotion,
     (base, step): (&mut Base, &mut Step),
-    mut account: impl SegmentAccount,
+    account: &mut SegmentAccount,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
     let mut flown = 0;
     while segments.start + flown < segments.end {
         let segment = ground.segment(segments.start + flown);
-        let is_last = until < ground.end_of(&segment) || !account.covers(segment.length);
+        let is_last = until < ground.end_of(&segment) || IS_NOTED && !account.covers(segment.length);
         if is_last || !fly_segment(model, ground, &segment, base, step) {
             break;
         }
-        let motion = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
-        account.add(motion, (segment.acceleration_at(0.0), segment.slope));
+        if IS_NOTED {
+            let motion = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
+            account.add(motion, (segment.acceleration_at(0.0), segment.slope));
+        }
         std::mem::swap(&mut base.q, &mut step.planned.q);
         std::mem::swap(&mut base.v, &mut step.planned.v);
         flown += 1;
     }
-    account.store(base);
     flown
 }
 
@@ -207,11 +207,11 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
 /// length, and leaves the base as it is if the motion has overflowed: a number that is not finite never becomes finite
 /// again, so the test at the end is enough.
 #[inline(always)]
-fn fly_few<const WIDTH: usize>(
+fn fly_few<const WIDTH: usize, const IS_NOTED: bool>(
     model: &Model,
     ground: &GroundMotion,
     base: &mut Base,
-    mut account: impl SegmentAccount,
+    account: &mut SegmentAccount,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
@@ -228,7 +228,9 @@ fn fly_few<const WIDTH: usize>(
         for c in 0..WIDTH {
             (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
         }
-        account.add((&q, &v), load);
+        if IS_NOTED {
+            account.add((&q, &v), load);
+        }
         (q, v) = (end_q, end_v);
         flown += 1;
     }
@@ -243,7 +245,6 @@ fn fly_few<const WIDTH: usize>(
     }
     base.q.copy_from_slice(q.as_flattened());
     base.v.copy_from_slice(v.as_flattened());
-    account.store(base);
     flown
 }
 

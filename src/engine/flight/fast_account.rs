@@ -1,69 +1,75 @@
-//! The energy account while fast flight passes over many segments.
+//! What is noted of the segments over which fast flight passes: in the energy account, and in logs.
 
 use crate::engine::base::{Account, Base};
+use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::record::GroundMotion;
+use crate::engine::flight::log::FlightLog;
 use crate::engine::system::System;
 use crate::structure::{FlightWork, Lane};
 
-/// What is added up over segments that follow each other.
-pub trait SegmentAccount {
-    /// Whether the work over segments of this length, s, is known.
-    fn covers(&self, length: f64) -> bool;
-
-    /// Adds a segment, from the motion at its start and the ground's acceleration, m/s2, and slope, m/s3.
-    fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64));
-
-    /// Makes the sums those of the base.
-    fn store(self, base: &mut Base);
+/// What is noted of segments that follow each other.
+pub struct SegmentAccount<'a> {
+    /// The energy account of a scene that keeps one, where flights do not wait for it.
+    energy: Option<EnergyAccount<'a>>,
+    /// Logs in which the segments are noted.
+    logs: [Option<&'a mut FlightLog>; 2],
+    /// Length of the logged segments, s.
+    length: f64,
 }
 
-/// No account is kept.
-pub struct NoAccount;
-
-/// The energy account of a scene that keeps one.
-pub struct EnergyAccount<'a> {
+/// The energy account and what is added to it.
+struct EnergyAccount<'a> {
     work: &'a FlightWork,
     account: Account,
     /// Energy that the contacts have dissipated, J.
     impact: f64,
 }
 
-impl EnergyAccount<'_> {
-    /// From the base on; `None` where no account is kept, or where flights wait for it.
-    pub fn of<'a>(system: &System, ground: &'a GroundMotion, base: &Base) -> Option<EnergyAccount<'a>> {
-        let account = base.energy.filter(|_| system.structure.is_classical())?;
-        let work = ground.work_over(base.segment.length)?;
-        Some(EnergyAccount { work, account, impact: base.dissipated_by_contacts() })
-    }
-}
-
-impl SegmentAccount for NoAccount {
-    #[inline(always)]
-    fn covers(&self, _: f64) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn add(&mut self, _: (&[Lane], &[Lane]), _: (f64, f64)) {}
-
-    #[inline(always)]
-    fn store(self, _: &mut Base) {}
-}
-
-impl SegmentAccount for EnergyAccount<'_> {
-    #[inline(always)]
-    fn covers(&self, length: f64) -> bool {
-        self.work.length == length
+impl<'a> SegmentAccount<'a> {
+    /// From the base on.
+    pub fn of(
+        system: &System,
+        ground: &'a GroundMotion,
+        base: &Base,
+        logs: [Option<&'a mut FlightLog>; 2],
+    ) -> SegmentAccount<'a> {
+        let length = base.segment.length;
+        let account = base.energy.filter(|_| system.structure.is_classical());
+        let energy = account.and_then(|account| {
+            let (work, impact) = (ground.work_over(length)?, base.dissipated_by_contacts());
+            Some(EnergyAccount { work, account, impact })
+        });
+        SegmentAccount { energy, logs, length }
     }
 
-    #[inline(always)]
-    fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
-        let flight = self.work.over(motion, load);
-        self.account.add_flight(&flight, self.impact);
+    /// Whether there is anything in which segments are noted.
+    pub fn notes_any(&self) -> bool {
+        self.energy.is_some() || self.logs.iter().any(Option::is_some)
     }
 
+    /// Whether segments of this length, s, can be noted.
     #[inline(always)]
-    fn store(self, base: &mut Base) {
-        base.energy = Some(self.account);
+    pub fn covers(&self, length: f64) -> bool {
+        length == self.length && self.energy.as_ref().is_none_or(|energy| length == energy.work.length)
+    }
+
+    /// Notes a segment, from the motion at its start and the ground's acceleration, m/s2, and slope, m/s3.
+    #[inline(always)]
+    pub fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
+        for log in self.logs.iter_mut().flatten() {
+            let of_flight = Load { acceleration: load.0, slope: load.1, length: self.length };
+            log.push((motion.0.as_flattened(), motion.1.as_flattened()), of_flight);
+        }
+        if let Some(EnergyAccount { work, account, impact }) = &mut self.energy {
+            account.add_flight(&work.over(motion, load), *impact);
+        }
+    }
+
+    /// Makes the sums those of the base.
+    #[inline(always)]
+    pub fn store(self, base: &mut Base) {
+        if let Some(EnergyAccount { account, .. }) = self.energy {
+            base.energy = Some(account);
+        }
     }
 }

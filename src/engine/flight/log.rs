@@ -6,11 +6,9 @@
 //!
 //! Where damping couples modes, a second log holds the flights that wait to be added to the energy account (`energy.rs`).
 
-use crate::engine::base::Base;
 use crate::engine::bounds::flights::{Flights, Forces, Load};
-use crate::engine::flight::fast_account::SegmentAccount;
 use crate::numerics::identity::next_identity;
-use crate::structure::{LANES, Lane};
+use crate::structure::LANES;
 
 /// Number of logged motions without any modes, for each lane of modes, and at most. A long log leaves less to be searched, which
 /// counts where there are many quantities; a short one touches less memory for the first time, which counts in short runs.
@@ -204,33 +202,5 @@ impl Clone for FlightLog {
             copy.sets.clone_from(&forces.sets);
         }
         log
-    }
-}
-
-/// An account that logs the segments as well, in one log or two.
-pub struct Logged<'a, A> {
-    pub account: A,
-    pub logs: [Option<&'a mut FlightLog>; 2],
-    /// Length of the segments, s.
-    pub length: f64,
-}
-
-impl<A: SegmentAccount> SegmentAccount for Logged<'_, A> {
-    #[inline(always)]
-    fn covers(&self, length: f64) -> bool {
-        self.length == length && self.account.covers(length)
-    }
-
-    #[inline(always)]
-    fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
-        let (q, v) = (motion.0.as_flattened(), motion.1.as_flattened());
-        let of_flight = Load { acceleration: load.0, slope: load.1, length: self.length };
-        self.logs.iter_mut().flatten().for_each(|log| log.push((q, v), of_flight));
-        self.account.add(motion, load);
-    }
-
-    #[inline(always)]
-    fn store(self, base: &mut Base) {
-        self.account.store(base);
     }
 }

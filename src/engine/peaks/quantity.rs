@@ -50,46 +50,28 @@ impl Quantity<'_> {
     /// the variable to that of a time map.
     pub fn terms(&self, series: &MotionSeries, substitution: Option<&Substitution>) -> (Coefficients, usize) {
         let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
-        let (mut of_q, mut terms) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
+        let mut terms = [0.0; MAX_TERMS];
         match self.lanes {
             Some((lane, below)) => {
                 let difference = |n: usize| series.term(n)[lane] - below.map_or(0.0, |below| series.term(n)[below]);
-                of_q.iter_mut().enumerate().take(count).for_each(|(n, term)| *term = difference(n));
+                terms.iter_mut().enumerate().take(count).for_each(|(n, term)| *term = difference(n));
             }
-            None => series.dot_each_in(self.span(), &self.rows[0], 0, &mut of_q),
-        }
-        let mut highest = series.order;
-        if self.oscillates && !matches!(self.of, PeakOf::BaseShear(_) | PeakOf::LinkForce(_)) {
-            let mut of_v = [0.0; MAX_TERMS];
-            series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
-            for n in 0..highest {
-                of_q[n] += (n + 1) as f64 * of_v[n + 1] * per_unit;
-            }
-            highest -= 1;
+            None => series.dot_each_in(self.span(), &self.rows[0], 0, &mut terms),
         }
         // Each derivative loses a power.
-        let order = match self.of {
-            PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::LinkDisplacement(_) => {
-                terms = of_q;
-                highest
-            }
-            PeakOf::Acceleration(..) => {
-                for n in 2..=highest {
-                    terms[n - 2] = (n * (n - 1)) as f64 * (of_q[n] * per_unit * per_unit);
-                }
-                terms[0] += self.ground.0;
-                terms[1] += self.ground.1 * series.scale;
-                highest - 2
-            }
-            PeakOf::BaseShear(_) | PeakOf::LinkForce(_) => {
-                let mut of_v = [0.0; MAX_TERMS];
-                series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
-                for n in 0..series.order {
-                    terms[n] = of_q[n] + (n + 1) as f64 * of_v[n + 1] * per_unit;
-                }
-                series.order - 1
-            }
-        };
+        let mut order = series.order;
+        if self.oscillates || matches!(self.of, PeakOf::BaseShear(_) | PeakOf::LinkForce(_)) {
+            let mut of_rates = [0.0; MAX_TERMS];
+            series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_rates);
+            (0..order).for_each(|n| terms[n] += (n + 1) as f64 * of_rates[n + 1] * per_unit);
+            order -= 1;
+        }
+        if let PeakOf::Acceleration(..) = self.of {
+            (2..=order).for_each(|n| terms[n - 2] = (n * (n - 1)) as f64 * (terms[n] * per_unit * per_unit));
+            terms[0] += self.ground.0;
+            terms[1] += self.ground.1 * series.scale;
+            order -= 2;
+        }
         terms[0] += self.at_rest;
         if series.time_map.is_curved()
             && let Some(substitution) = substitution
