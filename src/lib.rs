@@ -33,7 +33,7 @@
 //!
 //! Sources are cited as [Key, place]; the keys are those of `REFERENCES.bib`. "Seed paper" is \[BarrosKhatami2013\].
 #![deny(unsafe_code)]
-// `pub` means public, but in the rooms of the engine that say so. Not for tests, where it means nothing.
+// What is `pub` is the public interface, but for modules of the engine that allow `unreachable_pub`. Tests are exempt.
 #![warn(unreachable_pub)]
 
 mod collocation;

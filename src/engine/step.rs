@@ -1,5 +1,5 @@
-//! The dense solution from the base on, by one of a few kinds of step. Only this file asks for the kind; code that
-//! needs more than the motion and the contacts of a step matches on [`Step::dense`].
+//! The dense solution from the base on, by one of a few kinds of step. Motion and contacts within a step are read here,
+//! whatever its kind; code that needs more of it matches on [`Step::dense`].
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;

@@ -18,7 +18,7 @@ pub struct Powers {
     slope: Coefficients,
     /// n (n-1) (n-2) (n-3) x^(n-4).
     fourth: Coefficients,
-    /// dt/dx at x, by the time map; 1 at 0.
+    /// dt/dx - 1 at x, by the time map.
     stretch: f64,
     /// Weights of the terms of a series in time for its value, rate and integral, where the time map is curved: see
     /// [`TimeMap::weights`].
@@ -113,7 +113,7 @@ impl Powers {
         if self.is_curved { (value, rate) } else { (&self.value, &self.slope) }
     }
 
-    /// dt/dx at x, by the time map; 1 at 0.
+    /// dt/dx - 1 at x, by the time map.
     pub fn stretch(&self) -> f64 {
         self.stretch
     }

@@ -308,7 +308,12 @@ impl Structure {
 
     /// `out` -= factor * (off-diagonal damping) * `velocity`.
     pub fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
-        for Coupling { offset, matrix, .. } in &self.coupling {
+        self.subtract_coupling_of(&(0..self.lanes), velocity, factor, out);
+    }
+
+    /// The same for the bodies whose modes are among some.
+    pub fn subtract_coupling_of(&self, modes: &Range<usize>, velocity: &[f64], factor: f64, out: &mut [f64]) {
+        for Coupling { offset, matrix, .. } in self.coupling.iter().filter(|of| modes.contains(&of.offset)) {
             let own = *offset..*offset + matrix.nrows();
             subtract_product(matrix.as_slice(), factor, &velocity[own.clone()], &mut out[own]);
         }

@@ -33,10 +33,11 @@ impl Model {
         let Some((ground, first)) = self.can_run_fast(state) else { return FastRun::default() };
         let mut next = first;
         let has_arrived = loop {
-            let is_planned = state.step.kind != StepKind::NotPlanned;
-            let is_free =
-                state.base.clearance.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
             let State { base, step, counters, work, .. } = &mut *state;
+            let (is_planned, amplitude) = (step.kind != StepKind::NotPlanned, &mut work.buffers.node_v);
+            let is_free = base.clearance.are_all_free(next)
+                || !is_planned
+                    && self.flight.broad_phase.dismiss(&self.system, ground, base, next, counters, amplitude);
             if !is_free || next - first >= most || !self.system.is_accounted_at_once(ground, base) {
                 break false;
             }
@@ -89,14 +90,6 @@ impl Model {
             log.into_iter().for_each(|log| log.truncate(before + flown as usize));
         }
         flown
-    }
-
-    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
-    /// all are cleared now. Called seldom, so kept out of the loop above.
-    #[inline(never)]
-    fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
-        let State { base, counters, work, .. } = state;
-        self.flight.dismiss(&self.system, ground, base, segment, counters, &mut work.buffers.node_v)
     }
 
     /// The record and the number of the base's segment, if fast flight is possible from the base.

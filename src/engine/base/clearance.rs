@@ -38,14 +38,11 @@ impl Clearance {
         self.pairs[p] = until;
     }
 
-    /// The first segment in which any pair may meet, from the numbers of all pairs.
-    pub(crate) fn first_due(&self) -> u64 {
-        self.pairs.iter().copied().min().unwrap_or(u64::MAX)
-    }
-
-    /// Notes the first segment in which any pair may meet, and the one in which another broad phase is worth its cost.
-    pub(crate) fn note(&mut self, due: u64, next_look: u64) {
-        (self.due, self.next_look) = (due, next_look);
+    /// Notes the first segment in which any pair may meet, after a broad phase for a segment: another one is worth its cost
+    /// from there on, and not before the next segment.
+    pub(crate) fn settle(&mut self, segment: u64) {
+        self.due = self.pairs.iter().copied().min().unwrap_or(u64::MAX);
+        self.next_look = self.due.max(segment + 1);
     }
 
     /// Whether a pair is known to stay apart in a segment.
@@ -128,7 +125,7 @@ mod tests {
         // Without pairs, before and after the first broad phase.
         assert!(clearance(0, &[], 0, &[]).fits(0, 0, 10) && clearance(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
         let mut of_none = Clearance::new(0);
-        of_none.note(of_none.first_due(), u64::MAX);
+        of_none.settle(3);
         assert!(of_none.fits(0, 5, 10), "no pair is looked at ever again");
     }
 }

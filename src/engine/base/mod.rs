@@ -25,7 +25,7 @@ pub(super) enum Coordinates {
     /// Modal coordinates: in flight, and near rigid contacts.
     #[default]
     Modes,
-    /// Floor displacements: in contact.
+    /// Floor displacements: in contact, where floors are many and each is coupled to its neighbours only.
     Floors,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Rest {
     pub floors: Vec<f64>,
     /// The gap of each contact there, m.
     pub gaps: Vec<f64>,
-    /// The watched quantities there, in the order of their peaks: 0 but for displacements and drifts.
+    /// The watched quantities there, in the order of their peaks: accelerations are 0.
     pub watched: Vec<f64>,
 }
 

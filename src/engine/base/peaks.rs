@@ -4,7 +4,7 @@ use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use serde::{Deserialize, Serialize};
 
-/// The peaks up to the base, in the order and units of [`PeakRows`].
+/// The peaks up to the base, in the order and units of `quantities/rows.rs`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Peaks {
     /// One peak per watched quantity, in blocks of [`LANES`]; 0 in lanes without a quantity.

@@ -265,8 +265,9 @@ impl Seen {
     }
 }
 
-/// The least of the three upper bounds on the distance of a quantity beyond its limit up to some ends, m: where it is
-/// below 0 the limit is not reached. A NaN of the cubic bound is ignored, one of the others is returned.
+/// The least of three numbers, each of which is below 0 only if a quantity does not reach its limit up to some ends: by a line and
+/// a parabola its largest distance beyond the limit, m, by a cubic its largest control value or three times that. A NaN of the
+/// cubic is ignored, one of the others is returned.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn highest(seen: &Seen, gain: &Gain, (sign, start): (f64, f64), Ends { time, cumulative }: &Ends) -> Lane {
     let &Seen { ref sums, pull, rate, .. } = seen;
@@ -289,7 +290,7 @@ fn highest(seen: &Seen, gain: &Gain, (sign, start): (f64, f64), Ends { time, cum
     })
 }
 
-/// A bound on all rows of some with limits, by the amplitudes of the modes alone.
+/// A bound on some rows with limits, such as all storeys, at once: by the amplitudes of the modes alone.
 #[derive(Clone, Debug, Default)]
 pub struct Together {
     /// For each mode, the largest |row| / (w limit) of all rows, s/(m kg^1/2).

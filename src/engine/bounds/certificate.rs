@@ -8,10 +8,10 @@
 use crate::numerics::roots::{deviation, highest_of_cubic};
 use crate::structure::{Scratch, Structure};
 
-/// Coefficients of the bound on all rows of some; constant during a run.
+/// One bound for all rows with limits; constant during a run.
 #[derive(Debug)]
 pub struct Certificate {
-    /// Largest |row| entry of each mode over all rows, kg^-1/2.
+    /// For each mode the largest |row| entry of all rows with limits, kg^-1/2.
     pub weight: Vec<f64>,
 }
 

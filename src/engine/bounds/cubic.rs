@@ -19,7 +19,7 @@ pub struct Course {
     pub fourth: Lane,
 }
 
-/// The quantities of a block, with their values at rest, at both ends of a flight, of which its values may be known.
+/// Values, with those at rest, and slopes of the quantities of a block at both ends of a flight; the values may be known.
 pub fn course_of(
     (block, at_rest): (&RowBlock, &Lane),
     (flight, known_ends): (&Stretch, Option<[Lane; 2]>),

@@ -9,7 +9,7 @@ pub struct Load {
     pub acceleration: f64,
     /// Its slope, m/s3.
     pub slope: f64,
-    /// Length, s; 0: a gap, at whose end the motion is another one.
+    /// Length, s; 0: a gap, as contact or yielding has changed the motion before the next flight.
     pub length: f64,
 }
 
@@ -66,7 +66,7 @@ pub fn set_energies(
 }
 
 impl<'a> Flights<'a> {
-    /// Number of flights and gaps.
+    /// Number of flights and of gaps between them.
     pub fn count(&self) -> usize {
         match self.loads.last() {
             Some(load) if load.length == 0.0 => self.loads.len() - 1,

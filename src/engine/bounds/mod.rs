@@ -8,9 +8,9 @@
 //! **can y pass its limit before some time?** "No" is certain; "yes" is a guess, after which somebody looks closer. A
 //! bound never changes a result, only the work: what cannot happen is left out of sight. One that is too sharp would
 //! lose a contact in silence, one that is too wide costs a search in vain. `engine/tests/` holds each of them
-//! against the motion itself, and has motions that come within a hundredth of each.
+//! against random motions that are evaluated densely, and against motions that come near it: mostly to nine tenths.
 //!
-//! Bounds know rows and modes: no pairs, storeys, steps or models. These ask.
+//! Bounds know the motion and rows of numbers over it, and loads: no steps, systems or models. These ask.
 //!
 //! # The bounds
 //!
@@ -25,29 +25,34 @@
 //! acceleration   y + t (y' + |W| S + t/2 sum |row| (w + c) (e + A))  all modes turn together, t small     all three,
 //! jerk           cubic by y, y', y'', sum |row| k (e + A), k ~ w^2   y rests, t small                     many t
 //! together       limit times sum |row| (e + A) / (w limit)           one mode, any t                      n, all rows
-//! push           e + h |load| + sum |row| impulse, in place of e     forces act at once                   n
-//! oscillation    quasi-static y + sum |row| R, R radius about it      one mode without damping, any t      n
+//! push           e + h |load| + h^2 |load'| + sum |row| impulse      forces act at once                   n
+//! oscillation    quasi-static y + sum |row| R, R radius about it     one mode without damping, any t      n
 //! both ends      largest Bernstein coefficient of the cubic through  h w below 1; exact at the ends       2 n, and n
 //!                values and rates + h^4/384 max |y''''|                                                   for all rows
 //! horizon        c0 + x max(c1, 0) + |c2| x^2 + |c3| x^3 + ...       all terms have one sign              the floors
 //! ends of series as both ends, with max |y''''| by the row's terms   nearly always                        the terms
-//! chord          the larger end + h^2/8 max |y''|                    h w below 1; exact where y does not  the floors
-//!                                                                    turn
+//! chord          the larger end + h^2/8 max |y''|; it does not turn  h w below 1; exact where y does not  the floors
+//!                if its ends differ by more than h^2/2 max |y''|     turn
+//! span           the largest end of some flights + a chord's bound,  quick modes follow the ground        the slow
+//!                over slow modes; the quick ones quasi-static, + R                                        modes
 //!
 //! bound                                  file              who asks
 //! ------------------------------------------------------------------------------------------------------------------
 //! velocity, acceleration, jerk, together amplitude.rs      flight/broad_phase.rs: for 1 to 64 segments of the record
 //! together, push                         amplitude.rs      window/elastic.rs: no storey yields in a window
 //! oscillation                            oscillation.rs    system/limits.rs: for a flight or what is left of it
-//! both ends                              certificate.rs    flight/mod.rs, flight/search.rs, taylor/exact.rs
+//! the same, four rows at a time          envelope.rs       peaks/flight.rs, peaks/search.rs
+//! both ends                              certificate.rs    flight/mod.rs, flight/search.rs, yielding/element.rs
+//! the same, four rows at a time          cubic.rs          peaks/flight.rs
 //! horizon                                terms.rs          taylor/open_pairs.rs, taylor/switches.rs
-//! ends of series                         terms.rs          taylor/open_pairs.rs
-//! chord                                  chord.rs          peaks/excess.rs: all floors over a step in contact
+//! ends of series                         terms.rs          taylor/open_pairs.rs; with certificate.rs taylor/exact.rs
+//! chord                                  chord.rs          peaks/excess.rs: all floors over a step in contact;
+//!                                                          peaks/links.rs and peaks/search.rs on their own
+//! span                                   span.rs           peaks/fold.rs: many flights at once
 //! ```
 //!
-//! What is watched for its peak is read late, many flights at once: a [`span`] has its own bound over the slow modes. The
-//! few flights that are left are bounded in blocks of four rows, on a [`stretch`] of exact motion: [`cubic`] (both ends)
-//! and [`envelope`] (oscillation).
+//! What is watched for its peak is read late, many flights ([`flights`]) at once, in spans. The few flights that are left are
+//! bounded in blocks of four rows, on a [`stretch`] of exact motion.
 //!
 //! Where damping couples modes, the oscillators of their complex modes stand for them (`structure/flight_modes.rs`), with rows
 //! over q and q' (`quantities/flight_row.rs`): all bounds hold, with |A| + (w + c) |B| for |row|. Where there are none, coupled modes
@@ -57,8 +62,7 @@
 //! # Which one is asked when
 //!
 //! Apart: first the broad phase, which mostly needs one look for many segments. What it cannot exclude is tested by
-//! both ends of the flight, then by oscillation (a motion that has died out is never looked at again), and is then
-//! searched piece by piece, again by both ends of each piece. In contact: horizon, both ends of the series, then the
+//! both ends of the flight, then by oscillation (however long the flight is), and is then searched piece by piece, again by both ends of each piece. In contact: horizon, both ends of the series, then the
 //! search for a root. Within a window of contact forces the second derivative is bounded instead
 //! (`window/certificate.rs`), and in a step just after an entry the terms of its double series
 //! (`onset/certificate.rs`): these know forces, not rows alone.

@@ -46,38 +46,40 @@ impl<'a> Oscillation<'a> {
         if w2 == 0.0 {
             return [0.0; 3];
         }
-        let drift = slope[m] / w2;
-        let quasi_static = load[m] / w2 - c * drift / w2;
-        let (h, rate) = (q[m] - quasi_static, v[m] - drift);
-        let radius = (h * h + rate * rate / w2).sqrt() + MARGIN * (quasi_static.abs() + q[m].abs());
-        [quasi_static, drift * self.length, radius]
+        let rate = slope[m] / w2;
+        let quasi_static = load[m] / w2 - c * rate / w2;
+        let (h, dh) = (q[m] - quasi_static, v[m] - rate);
+        let radius = (h * h + dh * dh / w2).sqrt() + MARGIN * (quasi_static.abs() + q[m].abs());
+        [quasi_static, rate * self.length, radius]
     }
 
     /// Whether `sign` times the quantity of a row stays below a limit, m.
     pub fn stays_below(&self, row: FlightRow, sign: f64, limit: f64) -> bool {
         let (mut start, mut change, mut swing, mut size) = (0.0, 0.0, 0.0, limit.abs());
         for body in &self.structure.bodies {
+            let shared = (!self.structure.is_classical()).then(|| self.shared_energy(body));
             for m in body.range.clone() {
-                let [quasi_static, drift, radius] = self.of_mode(m);
-                let radius = if self.structure.is_classical() { radius } else { self.shared_radius(body, m) };
+                let [quasi_static, change_of_mode, radius] = self.of_mode(m);
                 let ([a, b], w2) = (row.entries(m), self.structure.omega2[m]);
+                let radius = shared.map_or(radius, |energy| (energy / w2).sqrt());
                 let by_rate = if b == 0.0 { 0.0 } else { b * self.loads.1[m] / w2 };
                 let followed = a * quasi_static + by_rate;
                 start += followed;
-                change += a * drift;
+                change += a * change_of_mode;
                 swing += (a.abs() + b.abs() * w2.sqrt()) * radius;
-                size += followed.abs() + (a * drift).abs();
+                size += followed.abs() + (a * change_of_mode).abs();
             }
         }
         // Written so that a NaN never counts as below.
         (sign * start).max(sign * (start + change)) - limit + swing + MARGIN * size < 0.0
     }
 
-    /// Envelope radius of a mode of a body in which damping couples modes: that of all its modes, since they
-    /// exchange energy.
-    fn shared_radius(&self, body: &Body, mode: usize) -> f64 {
-        let w2 = &self.structure.omega2;
-        let energy = |m: usize| w2[m] * self.of_mode(m)[2] * self.of_mode(m)[2];
-        (body.range.clone().map(energy).sum::<f64>() / w2[mode]).sqrt()
+    /// Sum of w^2 R^2 over the modes of a body in which damping couples them, and which exchange energy: any may get all of it.
+    fn shared_energy(&self, body: &Body) -> f64 {
+        let energy = |m: usize| {
+            let [.., radius] = self.of_mode(m);
+            self.structure.omega2[m] * radius * radius
+        };
+        body.range.clone().map(energy).sum()
     }
 }

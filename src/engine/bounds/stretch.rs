@@ -76,9 +76,7 @@ impl ModeBounds {
         for m in modes.clone() {
             jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
         }
-        if !structure.is_classical() {
-            structure.subtract_coupling(&self.first, 1.0, jerk);
-        }
+        structure.subtract_coupling_of(&modes, &self.first, 1.0, jerk);
         for m in modes.clone() {
             let (w2, acceleration) = (structure.omega2[m], self.first[m]);
             self.energy[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
@@ -105,15 +103,13 @@ impl ModeBounds {
     /// Works out the accelerations of a building's modes at both ends of a flight.
     fn set_accelerations(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
         let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
-        for m in modes {
+        for m in modes.clone() {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
             self.first[m] = load[m] - c * v[m] - w2 * q[m];
             self.last[m] = load[m] + slope[m] * flight.length - c * end_v[m] - w2 * end_q[m];
         }
-        if !structure.is_classical() {
-            structure.subtract_coupling(v, 1.0, &mut self.first);
-            structure.subtract_coupling(end_v, 1.0, &mut self.last);
-        }
+        structure.subtract_coupling_of(&modes, v, 1.0, &mut self.first);
+        structure.subtract_coupling_of(&modes, end_v, 1.0, &mut self.last);
     }
 
     /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see

@@ -31,7 +31,9 @@ impl BroadPhase {
     }
 
     /// Tests the pairs that are not cleared for the base's segment, which has that number, and the storeys; returns
-    /// whether all are cleared now. If not, the next broad phase is that of the next segment.
+    /// whether all are cleared now. If not, the next broad phase is that of the next segment. Called seldom, so kept out of
+    /// the loops of its callers.
+    #[inline(never)]
     pub fn dismiss(
         &self,
         system: &System,
@@ -48,8 +50,7 @@ impl BroadPhase {
         if !cfg!(without = "dismissal") {
             look_ahead((self, system), ground, base, segment, counters, amplitude);
         }
-        let due = base.clearance.first_due();
-        base.clearance.note(due, due.max(segment + 1));
+        base.clearance.settle(segment);
         base.clearance.are_all_free(segment)
     }
 

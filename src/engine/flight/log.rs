@@ -10,8 +10,9 @@ use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::numerics::identity::next_identity;
 use crate::structure::LANES;
 
-/// Number of logged motions without any modes, for each lane of modes, and at most. A long log leaves less to be searched, which
-/// counts where there are many quantities; a short one touches less memory for the first time, which counts in short runs.
+/// Number of entries of a log: that many, so many more for each lane of modes, and at most. A long log leaves less to be
+/// searched, which counts where there are many quantities; a short one touches less memory for the first time, which counts in
+/// short runs.
 const FEW: usize = 448;
 const FOR_LANE: usize = 4;
 const MOST: usize = 1024;

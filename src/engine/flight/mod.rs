@@ -10,10 +10,8 @@ pub mod search;
 pub mod workspace;
 
 use crate::engine::base::Base;
-use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::bounds::certificate::{Certificate, stays_below};
-use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::broad_phase::BroadPhase;
 use crate::engine::flight::search::Search;
 use crate::engine::flight::workspace::Look;
@@ -24,7 +22,7 @@ use crate::engine::system::buffers::Buffers;
 /// Coefficients for the proofs that no pair meets and no storey yields; constant during a run.
 #[derive(Debug)]
 pub struct Flight {
-    broad_phase: BroadPhase,
+    pub broad_phase: BroadPhase,
     certificate: Certificate,
 }
 
@@ -33,20 +31,6 @@ impl Flight {
     pub fn new(system: &System) -> Flight {
         let certificate = Certificate::of(&system.structure, system.limited_rows().map(FlightRow::sizes));
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
-    }
-
-    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number, and the
-    /// storeys; returns whether all are cleared now.
-    pub fn dismiss(
-        &self,
-        system: &System,
-        ground: &GroundMotion,
-        base: &mut Base,
-        segment: u64,
-        counters: &mut Counters,
-        amplitude: &mut [f64],
-    ) -> bool {
-        self.broad_phase.dismiss(system, ground, base, segment, counters, amplitude)
     }
 
     /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event.
@@ -60,11 +44,7 @@ impl Flight {
         work: &mut Buffers,
     ) {
         at.counters.flight_steps += 1;
-        planned.length = longest;
-        planned.event = None;
-        planned.next_length = None;
-        planned.tracked.fill(None);
-        planned.ends.clear();
+        planned.plan(longest, None, planned.reaches_limit, None);
         system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
         if system.limits() == 0 {
             return;
@@ -72,7 +52,7 @@ impl Flight {
         let watched = system.watched_segment(at.base);
         let segment = watched.map(|(_, segment)| segment);
         if let Some((ground, segment)) = watched
-            && self.dismiss(system, ground, at.base, segment, at.counters, &mut work.node_v)
+            && self.broad_phase.dismiss(system, ground, at.base, segment, at.counters, &mut work.node_v)
         {
             at.counters.flights_cleared += 1;
             planned.ends.resize(system.pairs.len(), None);

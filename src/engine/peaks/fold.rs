@@ -29,7 +29,7 @@ struct Fold<'a> {
     truncated: &'a TruncatedBody,
     /// The quantities at rest.
     rest: &'a [Lane],
-    /// Whether peaks rise to lower bounds.
+    /// Whether the lower bounds on the peaks that are found on the way raise them.
     rise: bool,
 }
 

@@ -21,7 +21,7 @@ pub(in crate::engine) struct FoldRoom {
     pub(super) survivors: Vec<Survivor>,
 }
 
-/// The same of one building, for spans of N times.
+/// The same of one body, for spans of N times.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SpanRoom<const N: usize> {
     pub(super) spans: Vec<Span<N>>,
@@ -41,7 +41,7 @@ pub(super) struct SpanRoom<const N: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OpenBlock {
     pub(super) span: usize,
-    /// Number of the block among those of its building.
+    /// Number of the block among those of its body.
     pub(super) block: usize,
     pub(super) coarse: Lane,
     pub(super) upper: Lane,
@@ -51,7 +51,7 @@ pub(super) struct OpenBlock {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Survivor {
     pub(super) flight: usize,
-    /// Number of the block among those of both buildings.
+    /// Number of the block among those of all bodies.
     pub(super) block: usize,
     pub(super) upper: Lane,
     /// By how much it may exceed a peak at most.
@@ -76,9 +76,9 @@ impl<const N: usize> SpanRoom<N> {
         let blocks = rows.bodies.iter().map(|body| body.blocks.len()).max().unwrap_or(0);
         SpanRoom {
             spans: Vec::with_capacity(spans),
-            motion: Vec::with_capacity(LANES * most(&|building| building.fours.len())),
+            motion: Vec::with_capacity(LANES * most(&|body| body.fours.len())),
             sizes: Vec::with_capacity(spans * truncated.fours.len()),
-            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
+            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|body| body.groups.len())),
             coarse: Vec::with_capacity(blocks),
             order: Vec::with_capacity(spans),
             open: Vec::with_capacity(spans * blocks),

@@ -51,8 +51,8 @@ impl PeakFinder<'_> {
         Peaks::new(self.watched.rows.blocks())
     }
 
-    /// Raises the peaks of the base over the planned flight, at once: where damping couples the modes, flights are not
-    /// logged.
+    /// Raises the peaks of the base over the planned flight, at once: where damping couples what moves in flights, these are
+    /// not logged.
     pub(in crate::engine) fn raise_over_flight(
         &self,
         base: &mut Base,

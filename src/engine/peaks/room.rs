@@ -18,43 +18,41 @@ const MOST_PARTS: usize = 32;
 pub const LEAVES: usize = 16;
 
 /// Number of motions within a flight that are kept.
-pub const MOST_FLOWN: usize = 32;
+const MOST_FLOWN: usize = 32;
 
 /// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
 /// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
 pub const MOST_PIECES: u32 = 10_000;
 
-/// The motion of all modes at a time of a flight, s since its start.
+/// The latest results of something that is worked out for one time, s, and then for another.
 #[derive(Clone, Debug, Default)]
-pub struct Flown {
-    pub time: f64,
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-}
-
-/// Exact flights over parts of flights, in a ring: flights of equal lengths have the same parts.
-#[derive(Clone, Debug, Default)]
-pub struct Parts {
-    kept: Vec<Interval>,
+pub struct Latest<T> {
+    /// By their times; NaN: none yet.
+    kept: Vec<(f64, T)>,
     /// Index of the next one to be replaced.
     next: usize,
 }
 
-impl Parts {
-    fn new(structure: &Structure, count: usize) -> Parts {
-        Parts { kept: vec![Interval::room(structure); count], next: 0 }
+impl<T: Clone> Latest<T> {
+    fn new(room: T, count: usize) -> Latest<T> {
+        Latest { kept: vec![(f64::NAN, room); count], next: 0 }
     }
 
-    /// The flight over a part of some length, s.
-    pub fn of(&mut self, structure: &Structure, length: f64) -> &Interval {
-        let known = self.kept.iter().position(|part| part.length == length);
+    /// The result for a time, and whether it is known; otherwise it is to be worked out in place of the oldest one.
+    pub fn of(&mut self, time: f64) -> (&mut T, bool) {
+        let known = self.kept.iter().position(|(of, _)| *of == time);
         let place = known.unwrap_or_else(|| {
             let place = self.next;
             self.next = (place + 1) % self.kept.len();
-            self.kept[place].prepare(structure, length);
+            self.kept[place].0 = time;
             place
         });
-        &self.kept[place]
+        (&mut self.kept[place].1, known.is_some())
+    }
+
+    /// Forgets all results.
+    fn forget(&mut self) {
+        self.kept.iter_mut().for_each(|(time, _)| *time = f64::NAN);
     }
 }
 
@@ -70,7 +68,7 @@ pub struct Suspect {
     pub values: [f64; LEAVES + 1],
     /// The leaves in which it may turn above its peak, as bits.
     pub leaves: u32,
-    /// A bound on its second derivative from there on.
+    /// A bound on its second derivative, from the start of the piece that is searched on.
     pub bend: f64,
     /// Number of pieces in which the flight may still be searched for it.
     pub pieces_left: u32,
@@ -89,11 +87,10 @@ pub struct PeakRoom {
     pub piece: ModeBounds,
     /// The quantities for which the flight is to be searched, by their places.
     pub suspects: Vec<Suspect>,
-    /// Motions at times of the flight that is searched, in a ring: several quantities need those at the same halvings.
-    pub flown: [Flown; MOST_FLOWN],
-    /// Index of the next motion to be overwritten.
-    pub next_flown: usize,
-    pub parts: Parts,
+    /// q and v at times of the flight that is searched: several quantities need those at the same halvings.
+    pub flown: Latest<[Vec<f64>; 2]>,
+    /// Exact flights over the first parts of flights: those of equal lengths have the same parts.
+    pub parts: Latest<Interval>,
     /// q and v at the start and at the end of a piece.
     pub pieces: [Vec<f64>; 4],
     /// The modal load at the start of a piece.
@@ -130,9 +127,8 @@ impl PeakRoom {
             bounds: ModeBounds::new(lanes),
             piece: ModeBounds::new(lanes),
             suspects: Vec::with_capacity(rows.blocks() * LANES),
-            flown: std::array::from_fn(|_| Flown { time: f64::NAN, q: vec![0.0; lanes], v: vec![0.0; lanes] }),
-            next_flown: 0,
-            parts: Parts::new(structure, if rows.are_none() { 0 } else { MOST_PARTS }),
+            flown: Latest::new([(); 2].map(|()| vec![0.0; lanes]), if rows.are_none() { 0 } else { MOST_FLOWN }),
+            parts: Latest::new(Interval::room(structure), if rows.are_none() { 0 } else { MOST_PARTS }),
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
@@ -150,7 +146,7 @@ impl PeakRoom {
     /// Begins the search of another flight.
     pub fn start_flight(&mut self) {
         self.suspects.clear();
-        self.flown.iter_mut().for_each(|flown| flown.time = f64::NAN);
+        self.flown.forget();
     }
 
     /// Forgets all results that are kept: the motion has been replaced.

@@ -6,7 +6,7 @@ use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
-use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakWork, Suspect};
+use crate::engine::peaks::room::{LEAVES, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, PeakOf, PeakRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
@@ -18,7 +18,7 @@ const LEAF_ANGLE: f64 = 2.7;
 /// The same of a piece, from which on it is worth bounding the amplitudes at its start.
 const LONG: f64 = 40.0 * LEAF_ANGLE;
 
-/// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
+/// What `cleared_in` is for a quantity that is left out of a single leaf: no piece may be halved so often.
 const OF_LEAF: u32 = u32::MAX;
 
 /// Largest number of halvings of pieces of a flight: then they are as short as rounding.
@@ -336,16 +336,15 @@ impl PeakFinder<'_> {
             _ if time == 0.0 => flight.start,
             _ if time == flight.length => flight.end,
             _ => {
-                let place = peaks.flown.iter().position(|flown| flown.time == time).unwrap_or_else(|| {
-                    let place = peaks.next_flown;
-                    peaks.next_flown = (place + 1) % MOST_FLOWN;
-                    let flown = &mut peaks.flown[place];
-                    let interval = peaks.parts.of(self.system.structure.in_flight(), time);
-                    interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
-                    flown.time = time;
-                    place
-                });
-                (&peaks.flown[place].q[..], &peaks.flown[place].v[..])
+                let ([flown_q, flown_v], is_known) = peaks.flown.of(time);
+                if !is_known {
+                    let (interval, is_prepared) = peaks.parts.of(time);
+                    if !is_prepared {
+                        interval.prepare(self.system.structure.in_flight(), time);
+                    }
+                    interval.fly(flight.start, flight.loads, (flown_q, flown_v), scratch);
+                }
+                (&flown_q[..], &flown_v[..])
             }
         };
         q.copy_from_slice(known.0);

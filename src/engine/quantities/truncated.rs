@@ -37,7 +37,7 @@ const USUAL: f64 = 0.01;
 /// The quantities of all bodies.
 #[derive(Debug)]
 pub(crate) struct TruncatedRows {
-    /// The fours of modes with slow ones among them.
+    /// All fours of neighbouring modes in which there is a slow one.
     pub fours: Vec<FourModes>,
     pub bodies: Vec<TruncatedBody>,
 }
@@ -241,7 +241,7 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 }
 
 impl TruncatedBlock {
-    /// With so many modes of other bodies before the first one in its four.
+    /// The first four of the body's modes begins with so many of `others`, of the body before.
     fn of(
         (block, oscillates): (&RowBlock, bool),
         others: usize,

@@ -275,7 +275,7 @@ impl Case {
             (base.contacts[p].penetration, base.contacts[p].rate) = (penetration, rate);
         }
         let ground = system.ground.as_ref().unwrap();
-        flight.dismiss(system, ground, base, 0, &mut Counters::default(), &mut work.node_v);
+        flight.broad_phase.dismiss(system, ground, base, 0, &mut Counters::default(), &mut work.node_v);
         base.clearance.is_free(p, segments - 1)
     }
 
