@@ -51,10 +51,33 @@ pub(crate) fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     all
 }
 
+/// The first numbers of each slice: of equal lengths, so that a loop needs no bounds checks. No closure, whose code might not be
+/// compiled for the instructions of its caller.
+#[inline(always)]
+pub(crate) fn cut<const N: usize>(mut all: [&[f64]; N], count: usize) -> [&[f64]; N] {
+    for one in &mut all {
+        *one = &one[..count];
+    }
+    all
+}
+
 /// The larger of two numbers in one instruction, as `f64::max` is not; the first where either is not a number.
 #[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
+}
+
+/// The largest of some numbers, or 0; a NaN is passed over.
+#[inline(always)]
+pub(crate) fn largest(all: &[f64]) -> f64 {
+    let mut most = [0.0; BLOCK];
+    let (blocks, rest) = all.as_chunks::<BLOCK>();
+    for block in blocks {
+        for i in 0..BLOCK {
+            most[i] = larger(most[i], block[i]);
+        }
+    }
+    rest.iter().chain(&most).fold(0.0, |most, one| larger(most, *one))
 }
 
 /// Value and slope of a polynomial at x.

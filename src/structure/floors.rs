@@ -250,16 +250,10 @@ impl Floors {
     /// Adds |M^-1 K| x times the first factor and |M^-1 C| x times the second for one building, where each floor is
     /// coupled to its neighbours only.
     pub fn add_sizes(&self, side: usize, [by_u, by_v]: [f64; 2], x: &[f64], out: &mut [f64]) {
-        let Blocks { on_mass, on_stiffness, .. } = self.buildings[side];
-        let (by_storeys, by_itself) = (by_u + by_v * on_stiffness.abs(), by_v * on_mass.abs());
-        let lanes = self.lanes_of(side);
-        for lane in lanes.clone() {
-            let block = &self.blocks[lane / LANES];
-            let (below, above) = (block.below[lane % LANES], block.above[lane % LANES]);
-            let lower = if lane == lanes.start { 0.0 } else { x[lane - 1] };
-            let upper = if lane + 1 == lanes.end { 0.0 } else { x[lane + 1] };
-            out[lane] += by_storeys * (below * (x[lane] + lower) + above * (x[lane] + upper)) + by_itself * x[lane];
-        }
+        let Blocks { first, end, on_mass, on_stiffness } = self.buildings[side];
+        let factors = [by_u + by_v * on_stiffness.abs(), by_v * on_mass.abs()];
+        let (x, out) = (x.as_chunks::<LANES>().0, out.as_chunks_mut::<LANES>().0);
+        add_sizes(&self.blocks[first..end], factors, &x[first..end], &mut out[first..end]);
     }
 
     /// Kinetic and strain energy, J.
@@ -319,6 +313,24 @@ impl Blocks {
             };
         }
         blocks[c].enter((&shear.strain, 0.0), (on_mass, &v[c]), &mut out[c], &entry);
+    }
+}
+
+/// See [`Floors::add_sizes`]: the storeys' part and each floor's own, times two factors.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_sizes(blocks: &[Neighbours], [by_storeys, by_itself]: [f64; 2], x: &[Lane], out: &mut [Lane]) {
+    let (count, mut before) = (blocks.len(), 0.0);
+    let (x, out) = (&x[..count], &mut out[..count]);
+    for c in 0..count {
+        let (Neighbours { below, above }, own) = (&blocks[c], &x[c]);
+        // No floor is coupled to the one above the highest.
+        let next = if c + 1 < count { x[c + 1][0] } else { 0.0 };
+        let (lower, upper) = ([before, own[0], own[1], own[2]], [own[1], own[2], own[3], next]);
+        for i in 0..LANES {
+            let storeys = below[i] * (own[i] + lower[i]) + above[i] * (own[i] + upper[i]);
+            out[c][i] += by_storeys * storeys + by_itself * own[i];
+        }
+        before = own[LANES - 1];
     }
 }
 

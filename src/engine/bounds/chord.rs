@@ -4,28 +4,31 @@
 //! one at both ends and that. If it turned in between, its ends would differ by at most h^2/2 max|y''|, four times as much, and
 //! its rates at both ends would add up to no more than h max|y''|: otherwise it is largest at an end.
 
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::{cut, larger};
 
 /// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes by how much they may be exceeded
-/// in between: from the motions and their rates at both ends, with bounds on their second derivatives.
+/// in between: from the motions and their rates at both ends, with bounds on their second derivatives. Returns whether
+/// none can be; a NaN can.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn exceed_by_motion(
     [start, end, rate, end_rate, fastest]: [&[f64]; 5],
     h: f64,
     peaks: &mut [f64],
     excess: &mut [f64],
-) {
+) -> bool {
     let (sag, count) = (0.125 * h * h, peaks.len());
     // Equal lengths: no bounds checks below.
-    let [start, end, rate, end_rate, fastest] = [start, end, rate, end_rate, fastest].map(|vector| &vector[..count]);
-    let excess = &mut excess[..count];
+    let [start, end, rate, end_rate, fastest] = cut([start, end, rate, end_rate, fastest], count);
+    let (excess, mut are_below) = (&mut excess[..count], true);
     for i in 0..count {
         let ends = larger(start[i].abs(), end[i].abs());
         peaks[i] = larger(peaks[i], ends);
         let goes_on = (rate[i] + end_rate[i]).abs() > h * fastest[i];
         let over = ends + sag * fastest[i] - peaks[i];
         excess[i] = if goes_on { 0.0 } else { over };
+        are_below &= excess[i] <= 0.0;
     }
+    are_below
 }
 
 /// The same for absolute accelerations, from those without contact forces and those by them at both ends, the least and
@@ -36,17 +39,19 @@ pub fn exceed_by_push(
     [least, most, strays]: [&[f64]; 3],
     peaks: &mut [f64],
     excess: &mut [f64],
-) {
+) -> bool {
     let count = peaks.len();
-    let [start, end, first, last] = [start, end, first, last].map(|vector| &vector[..count]);
-    let [least, most, strays] = [least, most, strays].map(|vector| &vector[..count]);
-    let excess = &mut excess[..count];
+    let [start, end, first, last] = cut([start, end, first, last], count);
+    let [least, most, strays] = cut([least, most, strays], count);
+    let (excess, mut are_below) = (&mut excess[..count], true);
     for i in 0..count {
         peaks[i] = larger(peaks[i], larger((start[i] + first[i]).abs(), (end[i] + last[i]).abs()));
         let top = larger(start[i], end[i]) + most[i];
         let bottom = larger(-start[i], -end[i]) - least[i];
         excess[i] = larger(top, bottom) + strays[i] - peaks[i];
+        are_below &= excess[i] <= 0.0;
     }
+    are_below
 }
 
 /// The same where the deviation of the whole from its chord is bounded.
@@ -56,10 +61,10 @@ pub fn exceed_by_deviation(
     strays: &[f64],
     peaks: &mut [f64],
     excess: &mut [f64],
-) {
+) -> bool {
     let count = peaks.len();
-    let [start, end, first, last, strays] = [start, end, first, last, strays].map(|vector| &vector[..count]);
-    let excess = &mut excess[..count];
+    let [start, end, first, last, strays] = cut([start, end, first, last, strays], count);
+    let (excess, mut are_below) = (&mut excess[..count], true);
     for i in 0..count {
         let ends = [start[i] + first[i], end[i] + last[i]];
         let most = larger(ends[0].abs(), ends[1].abs());
@@ -67,7 +72,9 @@ pub fn exceed_by_deviation(
         let goes_on = (ends[1] - ends[0]).abs() > 4.0 * strays[i];
         let over = most + strays[i] - peaks[i];
         excess[i] = if goes_on { 0.0 } else { over };
+        are_below &= excess[i] <= 0.0;
     }
+    are_below
 }
 
 /// Writes upper bounds on the magnitudes of accelerations: of the larger one at both ends, with those by contact forces and
@@ -75,7 +82,7 @@ pub fn exceed_by_deviation(
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn set_largest([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground: f64, largest: &mut [f64]) {
     let count = largest.len();
-    let [start, end, least, most] = [start, end, least, most].map(|vector| &vector[..count]);
+    let [start, end, least, most] = cut([start, end, least, most], count);
     for i in 0..count {
         largest[i] = larger(start[i].abs(), end[i].abs()) + larger(most[i], -least[i]) + ground;
     }
@@ -85,7 +92,7 @@ pub fn set_largest([start, end]: [&[f64]; 2], [least, most]: [&[f64]; 2], ground
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn add_larger([start, end]: [&[f64]; 2], out: &mut [f64]) {
     let count = out.len();
-    let [start, end] = [start, end].map(|vector| &vector[..count]);
+    let [start, end] = cut([start, end], count);
     for i in 0..count {
         out[i] += larger(start[i].abs(), end[i].abs());
     }

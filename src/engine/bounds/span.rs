@@ -13,7 +13,7 @@
 
 use crate::engine::bounds::flights::{Flights, Forces};
 use crate::engine::quantities::truncated::{FourModes, Mode, PushedFloors, TruncatedBlock, TruncatedBody};
-use crate::numerics::polynomial::{each, larger};
+use crate::numerics::polynomial::{each, larger, largest};
 use crate::structure::{LANES, Lane};
 
 /// Flights in a part of a span, over which one bound on what is left of the quick modes holds.
@@ -272,18 +272,6 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
         }
         *sizes = ModeSizes { most: [moved, pulled], sag: [energy, [0.0; LANES]] };
     }
-}
-
-#[inline(always)]
-fn largest<const N: usize>(all: &[f64; N]) -> f64 {
-    let mut most = [0.0; LANES];
-    let (blocks, rest) = all.as_chunks::<LANES>();
-    for block in blocks {
-        for i in 0..LANES {
-            most[i] = larger(most[i], block[i]);
-        }
-    }
-    rest.iter().chain(&most).fold(0.0, |most, one| larger(most, *one))
 }
 
 /// The largest R of some modes at a motion, with the ground's acceleration and its slope.

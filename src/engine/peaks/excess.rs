@@ -45,20 +45,19 @@ impl PeakFinder<'_> {
         } = room;
         let [moved, drifted, pushed] = excess.each_mut().map(|excess| &mut excess[lanes.clone()]);
         let motion = [&start.u, &end.u, &start.v, &end.v, largest].map(|of| &of[lanes.clone()]);
-        exceed_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
+        let are_moved_below = exceed_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
         let motion =
             [&start.drift, &end.drift, &start.drifting, &end.drifting, largest_of_drifts].map(|of| &of[lanes.clone()]);
-        exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
+        let are_drifted_below = exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
         let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
         let [least, most, strays] = [least, most, strays].map(|of| &of[lanes.clone()]);
-        match has_series {
+        let are_pushed_below = match has_series {
             true => exceed_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
             false => exceed_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
-        }
-        // Written so that a NaN is never below anything.
-        let are_below = |excess: &[f64]| excess.iter().fold(true, |are_below, excess| are_below & (*excess <= 0.0));
-        let are_floors_below = are_below(moved) && are_below(drifted) && are_below(pushed);
+        };
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
+        // Written so that a NaN is never below anything.
+        let are_floors_below = are_moved_below && are_drifted_below && are_pushed_below;
         !(are_floors_below && self.bound_shear(side, h, room).1 <= shear)
     }
 

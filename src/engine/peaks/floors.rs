@@ -11,7 +11,7 @@ use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::yielding::element::ElementOf;
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::largest;
 use crate::structure::{LANES, Side};
 
 /// Largest |T| for which the bound is used.
@@ -98,12 +98,7 @@ impl PeakFinder<'_> {
                 );
             }
         }
-        let whole = largest[lanes.clone()].iter().fold(0.0, |most, of| larger(most, *of));
-        let rest = norm * norm / (1.0 - norm) * whole;
-        for lane in lanes {
-            strays[lane] += rest;
-            largest[lane] += strays[lane];
-        }
+        widen(&mut strays[lanes.clone()], &mut largest[lanes], norm);
     }
 
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
@@ -121,6 +116,16 @@ impl PeakFinder<'_> {
         let [u, v] = [&floors.u[lanes.clone()], &floors.v[lanes]];
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));
         terms.map(|((k, c), (u, v))| k * u + c * v).sum()
+    }
+}
+
+/// Adds |T|^2 / (1 - |T|) max B to the deviations T B, and these to B.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn widen(strays: &mut [f64], bounds: &mut [f64], norm: f64) {
+    let added = norm * norm / (1.0 - norm) * largest(bounds);
+    for (stray, bound) in strays.iter_mut().zip(bounds) {
+        *stray += added;
+        *bound += *stray;
     }
 }
 

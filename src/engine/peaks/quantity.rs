@@ -1,11 +1,13 @@
 //! One quantity as rows over the motion: its values, its power series, and the largest magnitude of a series.
 
-use crate::engine::quantities::rows::PeakOf;
+use crate::engine::base::Coordinates;
+use crate::engine::peaks::PeakFinder;
+use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS, larger};
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{MotionSeries, dot};
+use crate::structure::{LANES, MotionSeries, dot};
 use std::ops::Range;
 
 /// A quantity as rows over the motion in some coordinates.
@@ -79,6 +81,74 @@ impl Quantity<'_> {
             substitution.apply_to_one(&mut terms[..=order]);
         }
         (terms, order)
+    }
+}
+
+impl PeakFinder<'_> {
+    /// The first lane of a body in some coordinates, and the one after its last.
+    pub(in crate::engine) fn span_of(&self, body: usize, coordinates: Coordinates) -> (usize, usize) {
+        let body = &self.system.structure.bodies[body];
+        let lanes = match coordinates {
+            Coordinates::Modes => &body.range,
+            Coordinates::Floors => &body.lanes,
+        };
+        (lanes.start, lanes.end)
+    }
+
+    /// Sets the rows of a quantity in some coordinates; returns the lanes of their entries if these are only 1 and -1.
+    pub(in crate::engine) fn set_rows(
+        &self,
+        of: PeakOf,
+        coordinates: Coordinates,
+        rows: &mut [Vec<f64>; 2],
+    ) -> Option<(usize, Option<usize>)> {
+        rows.iter_mut().for_each(|row| row.fill(0.0));
+        if coordinates == Coordinates::Floors {
+            return self.set_rows_of_floors(of, rows);
+        }
+        self.set_rows_of_modes(of, &self.watched.rows, rows);
+        None
+    }
+
+    /// The same for a flight.
+    pub(super) fn set_flight_rows(&self, of: PeakOf, rows: &mut [Vec<f64>; 2]) {
+        rows.iter_mut().for_each(|row| row.fill(0.0));
+        self.set_rows_of_modes(of, self.watched.in_flight(), rows);
+    }
+
+    /// The same over modes or oscillators, from rows of zeros.
+    fn set_rows_of_modes(&self, of: PeakOf, all: &PeakRows, [row, row_v]: &mut [Vec<f64>; 2]) {
+        let place = all.place(match of {
+            PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
+            _ => of,
+        });
+        let (body, block) = all.block_of(place);
+        for (m, a) in body.modes.clone().zip(&block.on_q) {
+            row[m] = a[place % LANES];
+        }
+        for (m, b) in body.modes.clone().zip(&block.on_v) {
+            row_v[m] = b[place % LANES];
+        }
+    }
+
+    /// The same over the floors, from rows of zeros.
+    fn set_rows_of_floors(&self, of: PeakOf, [row, row_v]: &mut [Vec<f64>; 2]) -> Option<(usize, Option<usize>)> {
+        let floors = &self.system.structure.floors;
+        match of {
+            PeakOf::Displacement(side, floor) | PeakOf::Acceleration(side, floor) => {
+                Some((floors.lane(side as usize, floor), None))
+            }
+            PeakOf::Drift(side, storey) => {
+                let lane = floors.lane(side as usize, storey);
+                Some((lane, storey.checked_sub(1).map(|_| lane - 1)))
+            }
+            PeakOf::BaseShear(side) => {
+                self.watched.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
+                None
+            }
+            // Linked buildings move in modes.
+            PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_) => None,
+        }
     }
 }
 

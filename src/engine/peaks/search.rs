@@ -7,7 +7,7 @@ use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, PeakWork, Suspect};
-use crate::engine::quantities::rows::{BodyRows, PeakOf, PeakRows, RowBlock, values_of};
+use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
 use crate::structure::{EXACT, LANES, Lane, flight_order};
@@ -362,72 +362,6 @@ impl PeakFinder<'_> {
     /// The number of the body to which a quantity belongs.
     fn body_of(&self, suspect: &Suspect) -> usize {
         self.watched.rows.body_of(suspect.place / LANES)
-    }
-
-    /// The first lane of a body in some coordinates, and the one after its last.
-    pub(in crate::engine) fn span_of(&self, body: usize, coordinates: Coordinates) -> (usize, usize) {
-        let body = &self.system.structure.bodies[body];
-        let lanes = match coordinates {
-            Coordinates::Modes => &body.range,
-            Coordinates::Floors => &body.lanes,
-        };
-        (lanes.start, lanes.end)
-    }
-
-    /// Sets the rows of a quantity in some coordinates; returns the lanes of their entries if these are only 1 and -1.
-    pub(in crate::engine) fn set_rows(
-        &self,
-        of: PeakOf,
-        coordinates: Coordinates,
-        rows: &mut [Vec<f64>; 2],
-    ) -> Option<(usize, Option<usize>)> {
-        rows.iter_mut().for_each(|row| row.fill(0.0));
-        if coordinates == Coordinates::Floors {
-            return self.set_rows_of_floors(of, rows);
-        }
-        self.set_rows_of_modes(of, &self.watched.rows, rows);
-        None
-    }
-
-    /// The same for a flight.
-    fn set_flight_rows(&self, of: PeakOf, rows: &mut [Vec<f64>; 2]) {
-        rows.iter_mut().for_each(|row| row.fill(0.0));
-        self.set_rows_of_modes(of, self.watched.in_flight(), rows);
-    }
-
-    /// The same over modes or oscillators, from rows of zeros.
-    fn set_rows_of_modes(&self, of: PeakOf, all: &PeakRows, [row, row_v]: &mut [Vec<f64>; 2]) {
-        let place = all.place(match of {
-            PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
-            _ => of,
-        });
-        let (body, block) = all.block_of(place);
-        for (m, a) in body.modes.clone().zip(&block.on_q) {
-            row[m] = a[place % LANES];
-        }
-        for (m, b) in body.modes.clone().zip(&block.on_v) {
-            row_v[m] = b[place % LANES];
-        }
-    }
-
-    /// The same over the floors, from rows of zeros.
-    fn set_rows_of_floors(&self, of: PeakOf, [row, row_v]: &mut [Vec<f64>; 2]) -> Option<(usize, Option<usize>)> {
-        let floors = &self.system.structure.floors;
-        match of {
-            PeakOf::Displacement(side, floor) | PeakOf::Acceleration(side, floor) => {
-                Some((floors.lane(side as usize, floor), None))
-            }
-            PeakOf::Drift(side, storey) => {
-                let lane = floors.lane(side as usize, storey);
-                Some((lane, storey.checked_sub(1).map(|_| lane - 1)))
-            }
-            PeakOf::BaseShear(side) => {
-                self.watched.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
-                None
-            }
-            // Linked buildings move in modes.
-            PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_) => None,
-        }
     }
 }
 

@@ -12,6 +12,7 @@
 //! force of link        A = stiffness times that                   B = dashpot times that
 //! ```
 
+use crate::numerics::polynomial::cut;
 use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
@@ -252,7 +253,7 @@ pub fn sums_of(
 ) -> [Lane; 3] {
     let count = block.on_q.len();
     // Equal lengths: no bounds checks below.
-    let [q, v, end_q, end_v, of_q, of_v] = [q, v, end_q, end_v, of_q, of_v].map(|vector| &vector[..count]);
+    let [q, v, end_q, end_v, of_q, of_v] = cut([q, v, end_q, end_v, of_q, of_v], count);
     let (mut start, mut end, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for m in 0..count {
         let row = &block.on_q[m];
