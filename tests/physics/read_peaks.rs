@@ -4,8 +4,10 @@
 use crate::common::peaks::{Watch, all};
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, record, scene};
+use crate::peaks_whenever::Sequence;
 use pounding::engine::{PeakOf, Side};
 use pounding::record::Record;
+use std::f64::consts::PI;
 
 const PLASTIC_ROOF: &str = include_str!("../problems/peaks/perfectly_plastic_roof.toml");
 const DAMPED_ENTRY: &str = include_str!("../problems/peaks/damped_entry_while_yielding.toml");
@@ -111,6 +113,37 @@ fn a_peak_at_the_start_is_the_same_for_every_step() {
 #[test]
 fn small_swings_at_the_start_of_a_step_count() {
     check(PRESSED_AT_REST, Some(&uneven()), 0.1);
+}
+
+/// Two masses whose contact hardly changes what their own springs and dashpots do to them, so that an acceleration turns just
+/// after the entry, where the force of a power law begins like a root of the time: no less than what is read there, for good.
+#[test]
+fn what_turns_just_after_an_entry_counts() {
+    let (mut sequence, quiet) = (Sequence(41), record(0.02, &[0.0; 8]));
+    let mut between = |from: f64, to: f64| from + (to - from) * sequence.next();
+    let laws =
+        ["jankowski\"\nrestitution = 0.4", "hertz\"", "hertz_damped\"\nrestitution = 0.4\ndamping_formula = \"exact\""];
+    for law in laws.iter().cycle().take(120) {
+        let mut mass = |velocity: f64| {
+            let (mass, w) = (10_f64.powf(between(3.5, 5.5)), 2.0 * PI * 10_f64.powf(between(-0.3, 1.2)));
+            let (stiffness, ratio) = (mass * w * w, between(0.02, 0.5));
+            format!(
+                "mass = [{mass:?}]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = {ratio:?} }}\n\
+                 initial_velocity = [{velocity:?}]\n"
+            )
+        };
+        let (left, right) = (mass(0.5), mass(0.0));
+        let stiffness = 10_f64.powf(between(6.5, 9.5));
+        let text = format!(
+            "name = \"Turns\"\n[left]\n{left}[right]\n{right}[[contact]]\nleft_floor = 1\nright_floor = 1\n\
+             gap = 1e-3\nlaw = \"{law}\nstiffness = {stiffness:?}\n"
+        );
+        let (mut run, mut watch) = (Run::new(&scene(&text), Some(&quiet)), Watch::default());
+        for time in (0..=1000).map(|k| 1e-4 * f64::from(k)) {
+            run.to(time);
+            watch.look(&run).unwrap_or_else(|wrong| panic!("{time} s: {wrong} in {text}"));
+        }
+    }
 }
 
 /// A storey that is perfectly plastic and not damped gives the floor above it no more than its yield force over its mass.

@@ -1,7 +1,7 @@
 //! The largest magnitude of a quantity in a step without a power series in time: an onset step or a window. Such a step
-//! is part of one oscillation of the contact, so that a few evaluations find every turning point.
+//! is part of one oscillation of the contact, so that a few readings find every turning point.
 
-use crate::collocation::MOST_PAIRS;
+use crate::collocation::{MOST_PAIRS, Map};
 use crate::contact::onset::{GridTerms, MOST_TERMS, value_and_slope};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
@@ -15,25 +15,14 @@ use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
-use crate::numerics::roots::{self, Knot, turning_point};
+use crate::numerics::roots::{self, Knot, highest_by_readings};
 use crate::structure::MotionSeries;
 
-/// Number of parts into which an onset step is divided to find turning points.
-const PARTS_OF_ONSET: u32 = 6;
-/// Number of parts into which a window is divided.
-const PARTS_OF_WINDOW: u32 = 2;
-
-/// Share of an onset step at which its start is evaluated: its terms have to be divided by powers of the time.
-const START: f64 = 1e-6;
-
-/// Share of a peak that the cubic through a part's ends has to reach for the part to be searched.
-const NEARLY: f64 = 0.95;
-
-/// Distance from the cubic through both ends of two parts in their middle, as a share of the peak, beyond which the parts
-/// are halved.
-const BENT: f64 = 0.25;
-/// How often they are halved.
-const MOST_HALVINGS: u32 = 12;
+/// The x at which a step that begins with an entry is first read: at 0 forces of power laws have no finite slope, and the terms
+/// of an onset step are divided by powers of the time.
+const START: f64 = 1e-3;
+/// The same of an onset step.
+const START_OF_ONSET: f64 = 0.03;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -62,12 +51,28 @@ impl ContactStep<'_> {
     }
 }
 
+/// The largest magnitude of a quantity in the first part of a step, up to the time `until`, s, or `known` if that is larger: in
+/// the x of a map, in which forces that begin like a root of the time are smooth, from a `start` on.
+fn search_mapped(
+    (known, until): (f64, f64),
+    (map, start, length): (Map, f64, f64),
+    mut read: impl FnMut(f64) -> Knot,
+) -> f64 {
+    let until = if until < length { map.inverse(until / length) } else { 1.0 };
+    highest_by_readings((known, until), [start, 1.0], |x| {
+        let (theta, rate) = map.at(x);
+        let Knot { value, slope, .. } = read(length * theta);
+        Knot { x, value, slope: length * rate * slope }
+    })
+}
+
 /// The largest magnitude of a quantity in the first part of an onset step, or `known` if that is larger.
 pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, part: &ContactStep) -> f64 {
     let ContactStep { step, length: until, .. } = part;
     let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
-    let whole = (START * step.planned.length, step.planned.length);
-    highest((known, *until), whole, PARTS_OF_ONSET, |time| series.read(time, onset, quantity.ground))
+    search_mapped((known, *until), (Map::FourthStart, START_OF_ONSET, step.planned.length), |time| {
+        series.read(time, onset, quantity.ground)
+    })
 }
 
 impl PeakFinder<'_> {
@@ -81,9 +86,11 @@ impl PeakFinder<'_> {
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
-        let whole = (0.0, part.step.planned.length);
-        let read = |time: f64| self.read_in_window(quantity, time, window, part, work);
-        highest((known, part.length), whole, PARTS_OF_WINDOW, read)
+        let map = window.0.solution.map.without_end();
+        let start = if map == Map::Plain { 0.0 } else { START };
+        search_mapped((known, part.length), (map, start, part.step.planned.length), |time| {
+            self.read_in_window(quantity, time, window, part, work)
+        })
     }
 
     /// The largest magnitude of an acceleration within a part of a step that is a power series, from its terms up to an x and
@@ -254,65 +261,5 @@ impl OnsetQuantity {
             (value, slope) = (value + ground + ground_slope * time, slope + ground_slope);
         }
         Knot { x: time, value, slope }
-    }
-}
-
-/// The largest magnitude over the times from..to, as far as they lie before `until`, or `known` if that is larger. The
-/// whole step is divided into the same parts, an even number of them, so that a turning point has the same bits whatever
-/// part is asked for.
-fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read: impl FnMut(f64) -> Knot) -> f64 {
-    let mut search = HighestSearch { peak: known, until, read };
-    let at = |i: u32| if i == parts { to } else { from + (to - from) * (f64::from(i) / f64::from(parts)) };
-    let mut last = (search.read)(from);
-    for i in (0..parts).step_by(2).take_while(|i| at(*i) <= until) {
-        let (middle, next) = ((search.read)(at(i + 1)), (search.read)(at(i + 2)));
-        let halvings = if search.is_bent(last, middle, next) { MOST_HALVINGS } else { 0 };
-        search.raise(last, middle, halvings);
-        search.raise(middle, next, halvings);
-        last = next;
-    }
-    search.peak
-}
-
-/// A search for the largest magnitude up to a time, s.
-struct HighestSearch<R> {
-    peak: f64,
-    until: f64,
-    read: R,
-}
-
-impl<R: FnMut(f64) -> Knot> HighestSearch<R> {
-    /// Raises the peak over the part between two readings; where nothing is seen to turn between them it may be halved.
-    fn raise(&mut self, a: Knot, b: Knot, halvings: u32) {
-        if a.x > self.until {
-            return;
-        }
-        let mut turns = false;
-        for sign in [1.0, -1.0] {
-            let ends = [a.times(sign), b.times(sign)];
-            if ends[0].slope > 0.0 && ends[1].slope < 0.0 {
-                turns = true;
-                if ends[0].summit(ends[1]).1 > NEARLY * self.peak {
-                    let time = turning_point(ends, |time| (self.read)(time).times(sign));
-                    let peak = if time <= self.until { (self.read)(time).value } else { 0.0 };
-                    self.peak = larger(self.peak, sign * peak);
-                }
-            }
-        }
-        if halvings > 0 && !turns {
-            let middle = (self.read)(0.5 * (a.x + b.x));
-            let halvings = if self.is_bent(a, middle, b) { halvings - 1 } else { 0 };
-            self.raise(a, middle, halvings);
-            self.raise(middle, b, halvings);
-        } else if b.x <= self.until {
-            self.peak = larger(self.peak, b.value.abs());
-        }
-    }
-
-    /// Whether a quantity is far from the cubic through two readings in their middle, so that it may turn twice between
-    /// them: by a share of its peak, which is small before the contact has reached a storey.
-    fn is_bent(&self, a: Knot, middle: Knot, b: Knot) -> bool {
-        let cubic = 0.5 * (a.value + b.value) + 0.125 * (b.x - a.x) * (a.slope - b.slope);
-        (middle.value - cubic).abs() > BENT * self.peak
     }
 }

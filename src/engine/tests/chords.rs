@@ -65,7 +65,8 @@ fn nothing_exceeds_its_peak_by_more_than_chords_say() {
         let ends = [curve.value(0.0), curve.value(h)];
         let [start, end, rate, end_rate, bent] =
             [ends[0], ends[1], curve.slope(0.0), curve.slope(h), curve.most_bent()].map(|number| [number]);
-        exceed_by_motion([&start, &end, &rate, &end_rate, &bent], h, &mut peak, &mut excess);
+        let is_below = exceed_by_motion([&start, &end, &rate, &end_rate, &bent], h, &mut peak, &mut excess);
+        assert_eq!(is_below, excess[0] <= 0.0);
         assert_eq!(peak[0], known.max(ends[0].abs()).max(ends[1].abs()));
         let reached = largest(times(h).map(|t| curve.value(t)));
         let size = bent[0] * h * h + curve.top.abs();
@@ -101,10 +102,11 @@ fn no_acceleration_exceeds_its_peak_by_more_than_chords_say() {
             [resisted[0], resisted[1], first, last, range[0], range[1]].map(|number| [number]);
         let (mut peak, mut excess) = ([0.0], [f64::NAN]);
         let at_ends = [&start[..], &end, &first, &last];
-        match has_series {
+        let is_below = match has_series {
             true => exceed_by_deviation(at_ends, &stray, &mut peak, &mut excess),
             false => exceed_by_push(at_ends, [&least, &most, &stray], &mut peak, &mut excess),
-        }
+        };
+        assert_eq!(is_below, excess[0] <= 0.0);
         let push = |t: f64| match t {
             _ if has_series => 0.0,
             0.0 => first[0],
