@@ -44,6 +44,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     for (i, link) in scene.links.iter().enumerate() {
         check.link(&format!("link[{}]", i + 1), link, scene);
     }
+    check.springs(scene);
     check.count("contact", "contacts", scene.contacts.len(), scene);
     check.count("link", "links", scene.links.len(), scene);
     check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);
