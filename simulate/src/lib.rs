@@ -15,6 +15,7 @@
 //! | `summary.rs`, `went_in.rs` | the same for a person: what happened, and what went in |
 //! | `layout.rs` | floors, levels and contacts of the scene, for pictures |
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
+//! | `written.rs` | files that are written, none of which may be one that is read |
 
 pub mod instants;
 pub mod layout;
@@ -27,6 +28,7 @@ pub mod summary;
 pub mod tables;
 mod thinning;
 mod went_in;
+pub mod written;
 
 use clap::Args;
 use outcome::Follower;
@@ -40,6 +42,7 @@ use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use summary::Problem;
+use written::sources;
 
 /// s, from row to row, where nothing else is said.
 pub const STEP: f64 = 0.01;
@@ -83,6 +86,15 @@ pub struct Arguments {
     layout: Option<PathBuf>,
 }
 
+impl Arguments {
+    /// The options that name files to write, and these.
+    fn outputs(&self) -> [(&'static str, Option<&Path>); 4] {
+        let Arguments { csv, impacts, html, layout, .. } = self;
+        [("--csv", csv), ("--impacts", impacts), ("--html", html), ("--layout", layout)]
+            .map(|(option, file)| (option, file.as_deref()))
+    }
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
@@ -110,6 +122,7 @@ pub struct ReportArguments {
 /// A scene or record with everything that is wrong with it, a file that cannot be written, a run that cannot go on.
 pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let mut package = read(&arguments.scene, arguments.record.as_deref())?;
+    written::check(&sources(&arguments.scene, &package.scene, arguments.record.as_deref()), &arguments.outputs())?;
     if arguments.without_contacts {
         package.scene.contacts.clear();
     }
@@ -153,6 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
 pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
     let package = read(&arguments.scene, arguments.record.as_deref())?;
     let file = arguments.output.clone().unwrap_or_else(|| format!("{}.html", package.scene.name).into());
+    written::check(&sources(&arguments.scene, &package.scene, arguments.record.as_deref()), &[("-o", Some(&file))])?;
     let stop = package.stop_time().unwrap_or(STOP);
     let model = model(&package)?;
     let mut page = report::create(&file)?;
