@@ -34,7 +34,7 @@ use clap::Args;
 use outcome::Follower;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
-use pounding::record::RecordFile;
+use pounding::record::{MOST_TIME, RecordFile};
 use pounding::variables::{Settings, Table};
 use pounding::warnings;
 use solve::{Solution, Solved, events, solve};
@@ -66,7 +66,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = STEP, value_parser = positive)]
     step: f64,
     /// s, time of the last row; without it, the scene's stop_time, else the end of the record, else 10.
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = stop_time)]
     stop: Option<f64>,
     /// Table of the motion, a row every step.
     #[arg(long, value_name = "OUT")]
@@ -102,6 +102,11 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+fn stop_time(text: &str) -> Result<f64, String> {
+    let expected = || format!("expected a number > 0 and at most {MOST_TIME:e}");
+    positive(text).ok().filter(|&stop| stop <= MOST_TIME).ok_or_else(expected)
+}
+
 /// What a report is made of, and where it goes.
 #[derive(Args)]
 pub struct ReportArguments {
@@ -127,6 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
         package.scene.contacts.clear();
     }
     let (step, stop) = (arguments.step, arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP));
+    instants::check_count(step, stop)?;
     let model = model(&package)?;
     let table = arguments.csv.as_deref().map(report::create).transpose()?;
     let mut motion = table.map(|file| tables::Motion::new(file, &package.scene)).transpose()?;
