@@ -182,7 +182,8 @@ pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
 
 /// The scene of a file, perhaps under another record; slips in it are told.
 fn read(scene: &Path, record: Option<&Path>) -> Result<Package, Box<dyn Error>> {
-    let mut package = Package::from_scene_file(scene)?;
+    let mut package = Package::from_scene_file(scene)
+        .map_err(|problems| format!("{} is not a scene that can be run:\n{problems}", scene.display()))?;
     if let Some(file) = record {
         give_record(&mut package, file)?;
     }
