@@ -4,7 +4,7 @@ use crate::arguments::{BuildArguments, Command, TrialArguments};
 use crate::face::Face;
 use crate::trial::Trial;
 use crate::{merge, recipe};
-use std::io::Write;
+use std::io::{self, ErrorKind, Write};
 
 /// What a command has to say on standard output, and whether all is well.
 pub struct Verdict {
@@ -48,16 +48,28 @@ pub fn carry_out(name: &str, work: impl FnOnce() -> anyhow::Result<Verdict> + st
     let verdict = std::panic::catch_unwind(work).unwrap_or_else(|panic| Err(bug(name, panic.as_ref())));
     match verdict {
         Ok(verdict) => {
-            // A reader that has seen enough (`| head`) closes the pipe: no error of ours.
-            let _ = std::io::stdout().write_all(verdict.text.as_bytes());
-            let _ = std::io::stdout().flush();
-            u8::from(!verdict.well)
+            let mut output = std::io::stdout();
+            let written = output.write_all(verdict.text.as_bytes()).and_then(|()| output.flush());
+            code_of(written, u8::from(!verdict.well))
         }
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "error: {error:#}");
-            1
-        }
+        Err(error) => refuse(&error),
     }
+}
+
+/// The exit code of a command that has written to standard output: 1 where what it has said is lost.
+pub fn code_of(written: io::Result<()>, code: u8) -> u8 {
+    match written {
+        // A reader that has seen enough (`| head`) closes the pipe: no error of ours.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            refuse(&anyhow::Error::new(error).context("cannot write to standard output"))
+        }
+        _ => code,
+    }
+}
+
+fn refuse(error: &anyhow::Error) -> u8 {
+    let _ = writeln!(std::io::stderr(), "error: {error:#}"); // nobody may be there to read it
+    1
 }
 
 fn bug(name: &str, panic: &(dyn std::any::Any + Send)) -> anyhow::Error {

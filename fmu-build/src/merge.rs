@@ -8,6 +8,7 @@ use crate::inspection;
 use anyhow::{Context, Result, bail};
 use pounding::FmiVersion;
 use pounding_pack::archive::{Entry, pack};
+use pounding_simulate::written::is_same_file;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -157,9 +158,4 @@ fn merged(one: Source, other: Source) -> Vec<Entry> {
 fn report(destination: &Destination, entries: &[Entry]) -> String {
     let platforms: Vec<&str> = entries.iter().filter(|entry| is_library(entry)).map(|e| platform(&e.path)).collect();
     format!("  file         {}\n  libraries    {}\n", destination.describe(), platforms.join(", "))
-}
-
-/// Whether two paths lead to one file.
-fn is_same_file(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }

@@ -13,6 +13,7 @@ use pounding::description::{Category, Package};
 use pounding_pack::{file_name, pack};
 use pounding_simulate::outcome::Outcome;
 use pounding_simulate::summary::{self, Problem};
+use pounding_simulate::written;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
@@ -34,6 +35,9 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     let package = read(scene_file)?;
     progress.say(&warnings_of(&package));
     let default_output = home.fmus.join(file_name(&package, version));
+    let output = arguments.output.as_ref().unwrap_or(&default_output);
+    written::check(&written::sources(scene_file, &package.scene, None), &[("-o", Some(output))])
+        .map_err(anyhow::Error::msg)?;
     let has_note = home.has_notes && arguments.output.is_none();
     let provenance = has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid(version)));
     // Compiling may take minutes: what cannot be written shall fail before that.

@@ -52,6 +52,7 @@ AGAIN = "import sys; sys.path[0] = {folder!r}; from pounding_fmu.__main__ import
 
 def main() -> int:
     """Does what the arguments say and returns the exit code."""
+    open_closed_streams()
     arguments = sys.argv[1:]
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:], "--help"]
@@ -64,6 +65,13 @@ def main() -> int:
     close = difflib.get_close_matches(word, known, n=1)
     meant = f"did you mean {close[0]}?" if close else "pounding-fmu --help lists them."
     return say(f"{word}: no such command; {meant} A scene is a file, such as {word}.toml", 2)
+
+
+def open_closed_streams() -> None:
+    """Opens standard streams that are closed to nowhere: nobody reads them, and no file that is written takes their place."""
+    for name in ("stdin", "stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "r" if name == "stdin" else "w", encoding="utf-8"))  # noqa: SIM115
 
 
 def could_be_a_scene(word: str) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from . import _native
 from ._data import DATA
-from ._scenes import read_scene, warn
+from ._scenes import path_of, read_scene, warn
 
 if TYPE_CHECKING:
     from ._scenes import Scene
@@ -40,7 +40,7 @@ def build_fmu(
 
     Raises:
         ValueError: everything that is wrong with the scene; a platform that there is no library for; a name that does
-            not end in ``.fmu``; a version of FMI that is neither 2 nor 3.
+            not end in ``.fmu``, or that of the scene or its record; a version of FMI that is neither 2 nor 3.
         OSError: the scene file cannot be read, or the FMU cannot be written.
         TypeError: the scene is none of the forms that a scene may have.
 
@@ -56,4 +56,4 @@ def build_fmu(
     read = read_scene(scene)
     warn(read.warnings())
     path = None if output is None else os.fsdecode(output)
-    return _native.build(read, path, os.fspath(DATA / "libraries"), platforms or [], fmi == 3)
+    return _native.build(read, path, path_of(scene), os.fspath(DATA / "libraries"), platforms or [], fmi == 3)

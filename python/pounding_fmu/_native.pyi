@@ -1,6 +1,7 @@
 """What is compiled; `pounding_fmu` alone calls it. Names are handed over as places in `Scene.variables`."""
 
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, final
 
@@ -17,6 +18,7 @@ __all__ = [
     "build",
     "run_command",
     "simulate",
+    "spare",
     "summary",
 ]
 
@@ -83,5 +85,12 @@ def simulate(
     scene: Scene, step: float, stop: float, references: list[int], rows_per_impact: int | None = None
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
 def summary(scene: Scene, step: float, stop: float) -> str: ...
-def build(scene: Scene, output: str | None, libraries: str, platforms: list[str], is_fmi3: bool) -> Path: ...
+def build(
+    scene: Scene, output: str | None, file: str | None, libraries: str, platforms: list[str], is_fmi3: bool
+) -> Path: ...
+def spare(
+    outputs: Sequence[tuple[str, str | os.PathLike[str] | None]],
+    scenes: Sequence[str | os.PathLike[str]],
+    records: Sequence[str | os.PathLike[str]],
+) -> None: ...
 def run_command(arguments: list[str], again: list[str], data: str, overview: str) -> int: ...

@@ -89,11 +89,17 @@ def read_scene(scene: Scene) -> _native.Scene:
     return read
 
 
+def path_of(scene: Scene) -> str | None:
+    """Where the file of a scene is that is given as one."""
+    is_text = isinstance(scene, str) and "\n" in scene
+    return None if is_text or not isinstance(scene, (str, os.PathLike)) else os.fsdecode(scene)
+
+
 def _read(scene: Scene) -> tuple[_native.Scene | None, list[str]]:
-    if isinstance(scene, str) and "\n" in scene:
+    path = path_of(scene)
+    if path is None and isinstance(scene, str):
         return _native.Scene.parse(scene)
-    if isinstance(scene, (str, os.PathLike)):
-        path = os.fsdecode(scene)
+    if path is not None:
         with open(path, "rb"):  # a file that cannot be read is no mistake of the scene
             pass
         return _native.Scene.read(path)

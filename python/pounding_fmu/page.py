@@ -28,6 +28,7 @@ def main(arguments: list[str]) -> int:
         name = f"{scene.name}.page"
         page = assembled(template, libraries, given, records(scene, options.scene.parent))
     output = options.output or Path(f"{name}.html")
+    _native.spare([("-o", output)], [] if options.scene is None else [options.scene], [])
     output.write_text(page, encoding="utf-8", newline="\n")
     print(f"{output}: open it in a browser; its FMUs are for {', '.join(libraries)}")
     return 0

@@ -90,8 +90,7 @@ def main(arguments: list[str]) -> int:
         raise ValueError(f"{options.plot}: expected a name that ends in {', '.join(PICTURES)}")
     if options.plot:
         require("matplotlib", "plot")
-    if options.output and os.path.exists(options.file) and options.output.exists() and options.output.samefile(options.file):
-        raise ValueError(f"{options.output}: this is the record itself, which stays as it is; expected another name")
+    _native.spare([("-o", options.output), ("--plot", options.plot)], [], [options.file])
     motion = Motion(*read_record(options.file))
     print(options.file)
     print("\n".join(origin(options.file)))

@@ -79,8 +79,9 @@ pub fn run_command(
         let arguments = match parsed {
             Ok(arguments) => arguments,
             Err(usage) => {
-                let _ = usage.print(); // nobody may be there to read it
-                return u8::try_from(usage.exit_code()).unwrap_or(2);
+                let (written, code) = (usage.print(), u8::try_from(usage.exit_code()).unwrap_or(2));
+                // Nobody may be there to read what is wrong with the usage.
+                return if usage.use_stderr() { code } else { command::code_of(written, code) };
             }
         };
         let face = PoundingFmu { again, data };

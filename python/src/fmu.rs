@@ -7,18 +7,21 @@ use fmu_build::libraries::{Libraries, Shipped};
 use fmu_build::{file_name, pack};
 use pounding::FmiVersion;
 use pounding::description::Package;
+use pounding_simulate::written;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Writes the FMU of a scene, by default NAME.fmu or NAME.fmi3.fmu in the current directory, with the libraries of a folder for these
-/// platforms or all; returns where it is.
+/// platforms or all; returns where it is. It goes neither over the file that the scene comes from, if there is one, nor over its
+/// record.
 #[pyfunction]
 pub fn build(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
     output: Option<PathBuf>,
+    file: Option<PathBuf>,
     libraries: PathBuf,
     platforms: Vec<String>,
     is_fmi3: bool,
@@ -26,6 +29,10 @@ pub fn build(
     let package = &scene.get().0.package;
     let version = if is_fmi3 { FmiVersion::V3 } else { FmiVersion::V2 };
     let output = output.unwrap_or_else(|| file_name(package, version).into());
+    if let Some(file) = file {
+        written::check(&written::sources(&file, &package.scene, None), &[("output", Some(&output))])
+            .map_err(PyValueError::new_err)?;
+    }
     py.detach(|| write(package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;
     Ok(output)
 }

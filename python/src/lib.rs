@@ -14,6 +14,7 @@
 //! | `batch.rs` | many runs on all cores |
 //! | `fmu.rs` | FMUs of scenes |
 //! | `command.rs` | the command `pounding-fmu` |
+//! | `written.rs` | files that commands in Python write |
 //! | `threads.rs` | work beside Python: it goes on meanwhile, and Ctrl-C ends the work |
 #![deny(unsafe_code)]
 
@@ -26,6 +27,7 @@ mod records;
 mod scene;
 mod single;
 mod threads;
+mod written;
 
 use pyo3::prelude::*;
 
@@ -46,6 +48,8 @@ mod _native {
     use crate::scene::Scene;
     #[pymodule_export]
     use crate::single::{simulate, summary};
+    #[pymodule_export]
+    use crate::written::spare;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -90,6 +90,7 @@ def test_version_and_help():
         ["simulate"],
         ["simulate", "x.toml", "--step", "0"],
         ["simulate", "x.toml", "--stop", "nan"],
+        ["simulate", "x.toml", "--stop", "1e300"],
     ],
 )
 def test_wrong_usage(arguments):
@@ -107,7 +108,11 @@ def mistakes(folder):
         "no scene": (["missing.toml"], ["missing.toml: expected a scene file, but No such file"]),
         "an output that is no FMU": ([fmus.FEUP, "-o", "x.zip"], ["x.zip: expected a name that ends in .fmu"]),
         "a platform": ([fmus.FEUP, "--platform", "win95"], ["platform win95: expected one of", fmus.HOST]),
-        "a scene to simulate": (["simulate", "bad.toml"], ["left.mass[2] = -1.0: expected"]),
+        "a scene to simulate": (
+            ["simulate", "bad.toml"],
+            ["bad.toml is not a scene that can be run:", "left.mass[2] = -1.0: expected"],
+        ),
+        "more rows than can be written": (["simulate", fmus.FEUP, "--step", "1e-300"], ["expected at most 1e12, by a larger step"]),
         "no FMU to check": (["check", "missing.fmu"], []),
         "what is no FMU": (["check", "no.fmu"], []),
         "the same twice": (["merge", "good.fmu", "good.fmu", "-o", "both.fmu"], [fmus.HOST]),

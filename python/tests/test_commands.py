@@ -1,6 +1,7 @@
 """The command `pounding-fmu`: its help, words that are no command, examples, reports."""
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -61,6 +62,41 @@ def test_a_reader_that_has_seen_enough(arguments):
     done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+SPEAKING = [
+    ["example"],
+    ["--help"],
+    ["record", fmus.RECORD],
+    ["record", fmus.RECORD, "-o", "converted.csv"],
+    ["simulate", fmus.FEUP, "--stop", "1", "--csv", "motion.csv"],
+    ["gap", fmus.FEUP],
+    [fmus.FEUP],
+    ["check", fmus.REFERENCES / "feup.fmu"],
+]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell that closes streams")
+@pytest.mark.parametrize("closed", [">&-", "<&- >&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("arguments", [*SPEAKING, ["example", "--help"]])
+def test_closed_streams(arguments, closed, tmp_path):
+    """Nobody reads it; what is written to files is what is written there otherwise."""
+    command = shlex.join(["pounding-fmu", *map(str, arguments)])
+    done = subprocess.run(f"{command} {closed}", shell=True, cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    written = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    well(*arguments, cwd=tmp_path)
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == written
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
+@pytest.mark.parametrize("arguments", SPEAKING)
+def test_lost_output_is_no_success(arguments, tmp_path):
+    command = ["pounding-fmu", *map(str, arguments)]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(command, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 1 and "No space left on device" in done.stderr and done.stderr.startswith("error: ")
+    assert len(done.stderr.splitlines()) == 1, done.stderr
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for another process")

@@ -3,6 +3,21 @@
 use crate::solve::Events;
 use std::iter::Peekable;
 
+/// Rows of a run: at a million in a second, more take weeks, and their table no disk holds.
+const MOST_ROWS: f64 = 1e12;
+
+/// Refuses more rows than can be written.
+///
+/// # Errors
+/// How many there would be.
+pub fn check_count(step: f64, stop: f64) -> Result<(), String> {
+    let rows = stop / step;
+    if rows <= MOST_ROWS {
+        return Ok(());
+    }
+    Err(format!("--step {step:?} to {stop:?} s: {rows:.1e} rows; expected at most {MOST_ROWS:e}, by a larger step"))
+}
+
 /// Multiples of `step`, s, up to `stop`, and `stop`.
 pub fn regular(step: f64, stop: f64) -> impl Iterator<Item = f64> {
     // What is left by rounding is no step of its own.

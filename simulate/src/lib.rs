@@ -15,6 +15,7 @@
 //! | `summary.rs`, `went_in.rs` | the same for a person: what happened, and what went in |
 //! | `layout.rs` | floors, levels and contacts of the scene, for pictures |
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
+//! | `written.rs` | files that are written, none of which may be one that is read |
 
 pub mod instants;
 pub mod layout;
@@ -27,12 +28,13 @@ pub mod summary;
 pub mod tables;
 mod thinning;
 mod went_in;
+pub mod written;
 
 use clap::Args;
 use outcome::Follower;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
-use pounding::record::RecordFile;
+use pounding::record::{MOST_TIME, RecordFile};
 use pounding::variables::{Settings, Table};
 use pounding::warnings;
 use solve::{Solution, Solved, events, solve};
@@ -40,6 +42,7 @@ use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use summary::Problem;
+use written::sources;
 
 /// s, from row to row, where nothing else is said.
 pub const STEP: f64 = 0.01;
@@ -63,7 +66,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = STEP, value_parser = positive)]
     step: f64,
     /// s, time of the last row; without it, the scene's stop_time, else the end of the record, else 10.
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = stop_time)]
     stop: Option<f64>,
     /// Table of the motion, a row every step.
     #[arg(long, value_name = "OUT")]
@@ -83,11 +86,25 @@ pub struct Arguments {
     layout: Option<PathBuf>,
 }
 
+impl Arguments {
+    /// The options that name files to write, and these.
+    fn outputs(&self) -> [(&'static str, Option<&Path>); 4] {
+        let Arguments { csv, impacts, html, layout, .. } = self;
+        [("--csv", csv), ("--impacts", impacts), ("--html", html), ("--layout", layout)]
+            .map(|(option, file)| (option, file.as_deref()))
+    }
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
         _ => Err("expected a number > 0".into()),
     }
+}
+
+fn stop_time(text: &str) -> Result<f64, String> {
+    let expected = || format!("expected a number > 0 and at most {MOST_TIME:e}");
+    positive(text).ok().filter(|&stop| stop <= MOST_TIME).ok_or_else(expected)
 }
 
 /// What a report is made of, and where it goes.
@@ -110,10 +127,12 @@ pub struct ReportArguments {
 /// A scene or record with everything that is wrong with it, a file that cannot be written, a run that cannot go on.
 pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let mut package = read(&arguments.scene, arguments.record.as_deref())?;
+    written::check(&sources(&arguments.scene, &package.scene, arguments.record.as_deref()), &arguments.outputs())?;
     if arguments.without_contacts {
         package.scene.contacts.clear();
     }
     let (step, stop) = (arguments.step, arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP));
+    instants::check_count(step, stop)?;
     let model = model(&package)?;
     let table = arguments.csv.as_deref().map(report::create).transpose()?;
     let mut motion = table.map(|file| tables::Motion::new(file, &package.scene)).transpose()?;
@@ -153,6 +172,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
 pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
     let package = read(&arguments.scene, arguments.record.as_deref())?;
     let file = arguments.output.clone().unwrap_or_else(|| format!("{}.html", package.scene.name).into());
+    written::check(&sources(&arguments.scene, &package.scene, arguments.record.as_deref()), &[("-o", Some(&file))])?;
     let stop = package.stop_time().unwrap_or(STOP);
     let model = model(&package)?;
     let mut page = report::create(&file)?;
@@ -162,7 +182,8 @@ pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
 
 /// The scene of a file, perhaps under another record; slips in it are told.
 fn read(scene: &Path, record: Option<&Path>) -> Result<Package, Box<dyn Error>> {
-    let mut package = Package::from_scene_file(scene)?;
+    let mut package = Package::from_scene_file(scene)
+        .map_err(|problems| format!("{} is not a scene that can be run:\n{problems}", scene.display()))?;
     if let Some(file) = record {
         give_record(&mut package, file)?;
     }

@@ -1,7 +1,7 @@
 //! Record files as a scene names them: a path, and behind `#` the channel.
 
 use super::accelerogram::{Accelerogram, RecordError};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A record file that has been read, but not understood yet.
@@ -21,14 +21,16 @@ impl RecordFile {
     /// # Errors
     /// A file that cannot be read, or what is no file: a device or a pipe may have no end.
     pub fn read(path: &Path) -> io::Result<RecordFile> {
-        let name = path.to_string_lossy().into_owned();
-        if let (shorter, Some(number)) = without_channel(&name)
-            && fs::symlink_metadata(path).is_err()
-        {
-            let bytes = read(Path::new(shorter))?;
-            return Ok(RecordFile { name: shorter.to_owned(), channel: Some(number), bytes });
+        let (place, channel) = RecordFile::place(path);
+        Ok(RecordFile { bytes: read(&place)?, name: place.to_string_lossy().into_owned(), channel })
+    }
+
+    /// Where the file lies that `read` reads, and the channel that is asked for.
+    pub fn place(path: &Path) -> (PathBuf, Option<usize>) {
+        match without_channel(&path.to_string_lossy()) {
+            (shorter, Some(number)) if fs::symlink_metadata(path).is_err() => (shorter.into(), Some(number)),
+            _ => (path.to_path_buf(), None),
         }
-        Ok(RecordFile { bytes: read(path)?, name, channel: None })
     }
 
     /// The file that a name asks for among files in memory, told by `bytes_of`, as `read` finds it in a folder.

@@ -50,4 +50,4 @@ pub use accelerogram::{Accelerogram, Record, RecordError, STANDARD_GRAVITY};
 pub use file::RecordFile;
 pub use format::Format;
 pub use known::KnownRecords;
-pub use reading::MOST_PROBLEMS;
+pub use reading::{MOST_PROBLEMS, MOST_TIME};

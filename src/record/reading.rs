@@ -8,6 +8,13 @@ use std::borrow::Cow;
 /// A file of the wrong kind has a problem in every line: nobody reads more than these.
 pub const MOST_PROBLEMS: usize = 10;
 
+/// s, of either sign: double precision tells times beyond from each other by a tenth of a millisecond and worse, which
+/// no impact can be followed with.
+pub const MOST_TIME: f64 = 1e12;
+
+/// s, from sample to sample: in less the slope overflows between the largest accelerations that a scene may have.
+const LEAST_INTERVAL: f64 = 1e-300;
+
 /// A record while it is being read, and what is wrong with it so far.
 pub(super) struct Reading {
     pub record: Record,
@@ -29,15 +36,19 @@ impl Reading {
         self.samples += 1;
         if !time.is_finite() {
             self.refuse(|| place(format!("time {} s: expected a finite time", plain(time))));
+        } else if time.abs() > MOST_TIME {
+            let expected = format!("expected a time from -{MOST_TIME:e} to {MOST_TIME:e} s");
+            self.refuse(|| place(format!("time {} s: {expected}", plain(time))));
         }
         if !acceleration.is_finite() {
             self.refuse(|| place(format!("acceleration {} m/s2: expected a finite acceleration", plain(acceleration))));
         }
         if let Some(&last) = self.record.times.last()
-            && time <= last
+            && time - last < LEAST_INTERVAL
         {
+            let more = if time > last { format!("at least {LEAST_INTERVAL:e} s more") } else { "more".to_owned() };
             self.refuse(|| {
-                place(format!("time {} s: expected more than the time before it, {} s", plain(time), plain(last)))
+                place(format!("time {} s: expected {more} than the time before it, {} s", plain(time), plain(last)))
             });
         }
         // What comes next is compared with this one, in or out of order: one wrong time is one problem, or two.

@@ -66,9 +66,7 @@ impl Rule {
 /// shakes beyond is a mistake in a unit, and much further beyond displacements leave no digit for a gap.
 pub const MOST_ACCELERATION: f64 = 1e6;
 
-/// s, of either sign: double precision tells times beyond from each other by a tenth of a millisecond and worse, which
-/// no impact can be followed with.
-pub const MOST_TIME: f64 = 1e12;
+pub use crate::record::MOST_TIME;
 
 /// Floors of a building: the work before a run grows with the cube of their number, to some twenty seconds here. The
 /// tallest buildings have less than 200.

@@ -103,6 +103,9 @@ def test_a_record_is_for_a_scene_without_one(feup):
         (["examples/scenes/feup.toml", "--csv", "no/such/place.csv"], 1, "no/such/place.csv"),
         (["examples/scenes/feup.toml", "--step", "0"], 2, "> 0"),
         (["examples/scenes/feup.toml", "--stop", "nan"], 2, "> 0"),
+        (["examples/scenes/feup.toml", "--stop", "1e300"], 2, "at most 1e12"),
+        (["examples/scenes/feup.toml", "--step", "1e-300"], 1, "2.0e301 rows; expected at most 1e12, by a larger step"),
+        (["examples/scenes/feup.toml", "--csv", "examples/scenes/feup.toml"], 1, "this is the scene itself"),
         ([], 2, "SCENE.toml"),
     ],
 )

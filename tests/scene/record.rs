@@ -88,6 +88,10 @@ fn csv_that_is_refused() {
     assert_eq!(rows("0,1\n1,nan\n"), "line 4: acceleration NaN m/s2: expected a finite acceleration");
     assert_eq!(rows("0,1\n1e999,2\n"), "line 4: time inf s: expected a finite time");
     assert_eq!(rows("0,1\n0.5,1\n0.5,2\n"), "line 5: time 0.5 s: expected more than the time before it, 0.5 s");
+    assert_eq!(rows("0,1\n1e300,2\n"), "line 4: time 1e300 s: expected a time from -1e12 to 1e12 s");
+    assert_eq!(rows("-2e13,1\n0,2\n"), "line 3: time -20000000000000 s: expected a time from -1e12 to 1e12 s");
+    let close = "line 4: time 5e-324 s: expected at least 1e-300 s more than the time before it, 0 s";
+    assert_eq!(rows("0,1\n5e-324,2\n"), close);
     assert_eq!(rows("0,1\n"), "1 sample: expected at least 2");
     assert_eq!(rows(""), "0 samples: expected at least 2");
 }

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from statistics import fmean
 
-from .. import _terminal
+from .. import _native, _terminal
 from .._scenes import warn
 from .search import Cost, RequiredGap, Search
 
@@ -47,6 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--workers", type=int, metavar="N", help="threads (default: all cores)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.csv", help="the table as a file, too")
     options = parser.parse_args(argv)
+    _native.spare([("-o", options.output)], [options.scene], options.records or [])
     progress = _terminal.Progress("runs")
     search = Search(options.scene, options.records, options.pga, options.force, options.workers, progress)
     warn(search.warnings)

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 from .._extras import require
-from .command import run_options, runs_of
+from .command import run_options, runs_of, spare
 
 
 def main(arguments: list[str]) -> int:
@@ -28,6 +28,7 @@ def main(arguments: list[str]) -> int:
     runs = runs_of(options)
     runs.check_motion()
     path = options.output or animation.film_file(Path(f"{runs.scene.name}.gif"))
+    spare(options, [path])
     count = animation.write(path, runs, options.speed)
     print(f"{path}: {count} frames, {path.stat().st_size / 1e3:.0f} kB")
     return 0

@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import importlib
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .. import _native
 from .._extras import require
 from .._scenes import positive, read_record, read_scene, warn
 from .style import FORMATS, LOOK, picture_file, save
@@ -43,9 +45,11 @@ def main(arguments: list[str]) -> int:
         picture_file(options.output)
     runs = runs_of(options)
     path = options.output or picture_file(Path(f"{runs.scene.name}.png"))
+    several = len(options.picture) > 1
+    files = {name: path.with_stem(f"{path.stem}_{name}") if several else path for name in options.picture}
+    spare(options, files.values())
     found = []
-    for name in options.picture:
-        file = path.with_stem(f"{path.stem}_{name}") if len(options.picture) > 1 else path
+    for name, file in files.items():
         if sys.stderr.isatty():
             print(f"{runs.scene.name}: {name} ...", end="\r", file=sys.stderr, flush=True)
         try:
@@ -56,7 +60,7 @@ def main(arguments: list[str]) -> int:
             print(f"\x1b[K{file}" if sys.stdout.isatty() else file)
     for text in found:
         print(text, file=sys.stderr)
-    return 1 if len(found) == len(options.picture) else 0
+    return 1 if len(found) == len(files) else 0
 
 
 def draw(runs: Runs, name: str) -> Figure:
@@ -83,6 +87,12 @@ def runs_of(options: argparse.Namespace) -> Runs:
     stop = scene.stop() if options.stop is None else positive("stop", options.stop)
     warn(scene.warnings())
     return Runs(scene, stop, options.start, options.end)
+
+
+def spare(options: argparse.Namespace, files: Iterable[Path]) -> None:
+    """Refuses to write over what is read."""
+    records = [] if options.record is None else [options.record]
+    _native.spare([("-o", file) for file in files], [options.scene], records)
 
 
 def parser() -> argparse.ArgumentParser:

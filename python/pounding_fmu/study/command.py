@@ -9,7 +9,7 @@ import signal
 from collections.abc import Sequence
 from pathlib import Path
 
-from .. import _terminal
+from .. import _native, _terminal
 from .._data import DATA
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
 from .cases import Row, collapsed, varied_values
@@ -115,7 +115,9 @@ def draw_rows(rows: Sequence[Row], name: str, options: argparse.Namespace) -> No
     """Fragility and pictures of rows that differ in gap, record and intensity, in files of this name."""
     limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
     found = curves(rows, demands(rows, limits), options.intensity)
-    write(found, options.output / f"fragility_{name}.csv")
+    curves_file = options.output / f"fragility_{name}.csv"
+    _native.spare([("-o", curves_file)], options.scenes, options.records or [])
+    write(found, curves_file)
     if importlib.util.find_spec("matplotlib") is None:
         _terminal.say('no pictures without matplotlib: pip install "pounding-fmu[plot]"')
         return
