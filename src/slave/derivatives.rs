@@ -4,7 +4,7 @@
 use super::instance::Slave;
 use super::sequence::{Call, Phase};
 use super::status::{Refusal, Status};
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, Unit, by_parameter};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, InitialDependencies, Slot, Type, Unit, by_parameter};
 
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
@@ -138,12 +138,19 @@ impl Slave {
             Slot::Input(input) => Some((input, change)),
             _ => None,
         }));
+        let is_parameter = |known| table.row(known).is_some_and(|row| matches!(row.slot, Slot::Parameter(_)));
+        let has_parameters = changes.iter().any(|&(known, _)| is_parameter(known));
+        let dependencies = has_parameters.then(|| InitialDependencies::of(&settings.scene));
         for (i, &unknown) in unknowns.iter().enumerate() {
             let Some(unknown) = table.row(unknown) else { continue };
             let mut sum = simulation.response(unknown.slot);
+            let depends_on = dependencies.as_ref().map_or_else(Vec::new, |of| of.at_start(unknown.slot));
             for (known, change) in changes.iter().filter_map(|&(known, change)| Some((table.row(known)?, change))) {
                 let Slot::Parameter(parameter) = known.slot else { continue };
-                match by_parameter(&settings.scene, simulation.model(), unknown.slot, parameter) {
+                if !depends_on.contains(&known.slot) {
+                    continue;
+                }
+                match by_parameter(simulation.model(), unknown.slot, parameter) {
                     Some(derivative) => sum += derivative * change,
                     None => problems.push(format!(
                         "{} with respect to {}: no derivative; expected an input, or a frequency with respect to masses \
