@@ -57,6 +57,9 @@ impl Slave {
     }
 
     fn output_derivative(&mut self, reference: u32, order: i32) -> Result<Result<f64, String>, Refusal> {
+        if self.is_time(reference) {
+            return Ok(Err("time: the independent variable has no derivatives; expected an output".to_owned()));
+        }
         let Some(row) = self.table.row(reference) else { return Ok(Err(self.unknown(reference))) };
         let Slot::Output(output) = row.slot else { return Ok(Err(format!("{}: expected an output", row.name))) };
         if !matches!(row.ty, Type::Real(_)) {
@@ -198,14 +201,18 @@ impl Slave {
         is_one: impl Fn(Slot, bool) -> bool,
         [expected, more]: [&str; 2],
     ) -> Result<&str, String> {
-        let row = self.table.row(reference).ok_or_else(|| self.unknown(reference))?;
         let at_start = self.phase == Phase::Initialization;
+        let more = if at_start { more } else { "" };
+        let expected = format!("expected {expected}{more} of type {}", self.real());
+        if self.is_time(reference) {
+            return Err(format!(
+                "{role} time: there are no derivatives of or with respect to the independent variable; {expected}"
+            ));
+        }
+        let row = self.table.row(reference).ok_or_else(|| self.unknown(reference))?;
         match row.ty {
             Type::Real(_) if is_one(row.slot, at_start) => Ok(&row.name),
-            _ => {
-                let more = if at_start { more } else { "" };
-                Err(format!("{role} {}: expected {expected}{more} of type {}", row.name, self.real()))
-            }
+            _ => Err(format!("{role} {}: {expected}", row.name)),
         }
     }
 }
