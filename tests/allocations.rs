@@ -1,9 +1,12 @@
-//! No memory is asked for once a run has started.
+//! No memory is asked for once a run has started, and a description of tall buildings asks for little, as it lists no more
+//! than what depends on each other.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 
 use common::{Run, record, scene};
+use pounding::FmiVersion;
+use pounding::description::Package;
 use pounding::engine::{PointRates, Side};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -109,5 +112,30 @@ fn many_modes_and_coupled_modes_allocate_nothing_either() {
         }
         assert!(run.point.impacts > 3, "{} impacts", run.point.impacts);
         assert_eq!(CALLS.get() - before, 0);
+    }
+}
+
+/// How often memory is asked for to describe two buildings of that many floors, all of which may collide.
+fn calls_of_a_description(floors: usize, law: &str) -> usize {
+    let building =
+        format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.02 }}", vec![1e5; floors], vec![1e9; floors]);
+    let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.1\n{law}\n");
+    let contacts: String = (1..=floors).map(contact).collect();
+    let text =
+        format!("name = \"T\"\n[inputs]\nfloor_forces = true\n[left]\n{building}\n[right]\n{building}\n{contacts}");
+    let package = Package::from_scene_text(text, ".".as_ref()).unwrap();
+    let before = CALLS.get();
+    let description = package.model_description(FmiVersion::V2);
+    let calls = CALLS.get() - before;
+    assert!(description.contains(&format!("contact[{floors}].gap")), "{law}");
+    calls
+}
+
+/// Where each unknown looks at each contact for each known, twice the floors ask for memory eight times as often.
+#[test]
+fn describing_twice_the_floors_takes_twice_the_work() {
+    for law in ["law = \"linear\"\nstiffness = 1.0e9", "law = \"stereomechanical\"\nrestitution = 0.5"] {
+        let [low, tall] = [15, 30].map(|floors| calls_of_a_description(floors, law));
+        assert!(tall < 3 * low, "{law}: {low} and {tall} calls");
     }
 }

@@ -6,7 +6,9 @@ use super::variable::borrowed;
 use super::writer::{Xml, branch, leaf};
 use crate::FmiVersion;
 use crate::scene::Scene;
-use crate::variables::{Dependence, Row, Slot, Table, at_communication_points, at_start};
+use crate::variables::{Dependence, Dependencies, InitialDependencies, Slot, Table};
+use std::collections::HashMap;
+use std::fmt::{Display, Write};
 use std::io;
 
 /// Writes the element. A co-simulation FMU need not declare states, so there are no derivatives.
@@ -37,42 +39,65 @@ struct Unknowns<'a> {
 
 impl Unknowns<'_> {
     fn outputs(&self, xml: &mut Xml, scene: &Scene) -> io::Result<()> {
-        let is_output = |row: &Row| matches!(row.slot, Slot::Output(_));
-        self.write(xml, is_output, |unknown, known| match (unknown, known) {
-            (Slot::Output(output), Slot::Input(input)) => at_communication_points(scene, output, input),
-            _ => None,
+        let dependencies = Dependencies::of(scene);
+        let is_output = |slot: Slot| matches!(slot, Slot::Output(_));
+        self.write(xml, is_output, |unknown| match unknown {
+            Slot::Output(output) => {
+                let inputs = dependencies.at_communication_points(output).into_iter();
+                inputs.map(|(input, dependence)| (Slot::Input(input), dependence)).collect()
+            }
+            _ => Vec::new(),
         })
     }
 
     fn initial_unknowns(&self, xml: &mut Xml, scene: &Scene) -> io::Result<()> {
-        let is_computed = |row: &Row| matches!(row.slot, Slot::Output(_) | Slot::Calculated(_));
+        let dependencies = InitialDependencies::of(scene);
+        let is_computed = |slot: Slot| matches!(slot, Slot::Output(_) | Slot::Calculated(_));
         // Of the kinds only `dependent`, which goes without saying, and `constant` are allowed here.
-        let depends = |unknown, known| at_start(scene, unknown, known).then_some(Dependence::Dependent);
-        self.write(xml, is_computed, depends)
+        self.write(xml, is_computed, |unknown| {
+            dependencies.at_start(unknown).into_iter().map(|known| (known, Dependence::Dependent)).collect()
+        })
     }
 
+    /// The knowns that the table has, each once, in the order of the table.
     fn write(
         &self,
         xml: &mut Xml,
-        is_unknown: impl Fn(&Row) -> bool,
-        depends: impl Fn(Slot, Slot) -> Option<Dependence>,
+        is_unknown: impl Fn(Slot) -> bool,
+        depends_on: impl Fn(Slot) -> Vec<(Slot, Dependence)>,
     ) -> io::Result<()> {
-        let numbered = || (self.first..).zip(&self.table.rows).map(|(number, row)| (number.to_string(), row));
-        let is_known = |row: &Row| matches!(row.slot, Slot::Input(_) | Slot::Parameter(_));
-        let knowns = numbered().filter(|(_, row)| is_known(row)).map(|(number, row)| (number, row.slot));
-        let knowns: Vec<(String, Slot)> = knowns.collect();
-        for (number, unknown) in numbered().filter(|(_, row)| is_unknown(row)) {
-            let known =
-                knowns.iter().filter_map(|(number, slot)| Some((number.as_str(), depends(unknown.slot, *slot)?)));
-            let (known, kinds): (Vec<&str>, Vec<Dependence>) = known.unzip();
-            let mut attributes = vec![(self.reference, number), ("dependencies", known.join(" "))];
-            if kinds.contains(&Dependence::Fixed) {
-                attributes.push(("dependenciesKind", kinds.into_iter().map(kind).collect::<Vec<_>>().join(" ")));
+        let numbered = || (self.first..).zip(&self.table.rows).map(|(number, row)| (number, row.slot));
+        let is_known = |slot: Slot| matches!(slot, Slot::Input(_) | Slot::Parameter(_));
+        let numbers: HashMap<Slot, u32> =
+            numbered().filter(|(_, slot)| is_known(*slot)).map(|(number, slot)| (slot, number)).collect();
+        for (number, unknown) in numbered().filter(|(_, slot)| is_unknown(*slot)) {
+            let known = depends_on(unknown).into_iter();
+            let mut known: Vec<(u32, Dependence)> =
+                known.filter_map(|(slot, dependence)| Some((*numbers.get(&slot)?, dependence))).collect();
+            known.sort_unstable_by_key(|(number, _)| *number);
+            known.dedup_by_key(|(number, _)| *number);
+            let mut attributes = vec![
+                (self.reference, number.to_string()),
+                ("dependencies", joined(known.iter().map(|(number, _)| number))),
+            ];
+            if known.iter().any(|(_, dependence)| *dependence == Dependence::Fixed) {
+                attributes.push(("dependenciesKind", joined(known.iter().map(|(_, dependence)| kind(*dependence)))));
             }
             leaf(xml, self.element, borrowed(&attributes))?;
         }
         Ok(())
     }
+}
+
+/// A list of an attribute.
+fn joined(items: impl Iterator<Item = impl Display>) -> String {
+    let mut list = String::new();
+    for item in items {
+        let blank = if list.is_empty() { "" } else { " " };
+        // Writing to memory cannot fail.
+        let _ = write!(list, "{blank}{item}");
+    }
+    list
 }
 
 const fn kind(dependence: Dependence) -> &'static str {

@@ -17,13 +17,18 @@ impl Checker {
         let rules = [rule::STOREY_STIFFNESS, rule::DASHPOT];
         self.soil(&format!("{path}.sway"), foundation.sway, rules);
         self.soil(&format!("{path}.rocking"), foundation.rocking, [rule::ROCKING_STIFFNESS, rule::ROCKING_DASHPOT]);
+        if foundation.sway.is_none() && foundation.rocking.is_none() {
+            let expected =
+                "sway, rocking or both: the springs and dashpots of the soil, without which it is a fixed base";
+            self.refuse(&path, "", expected);
+        }
         if matches!(building.stiffness, Stiffness::Matrix(_)) {
             let expected =
                 "a shear building, with stiffness instead of stiffness_matrix: its storeys lean with the foundation";
-            return self.refuse(path, "", expected);
+            self.refuse(&path, "", expected);
         }
         if building.heights.is_none() {
-            return self.refuse(path, "", "height as well, the heights of the storeys that lean with the foundation");
+            self.refuse(&path, "", "height as well, the heights of the storeys that lean with the foundation");
         }
         if self.problems.len() == known && building.has_gravity() {
             self.stands_on_soil(&path, building, foundation);

@@ -2,7 +2,8 @@
 //!
 //! A value that does not fit is reported once, where it stands, and a neutral value is handed on in its place.
 
-use super::problem::{Problem, SceneError, excerpt};
+use super::problem::{Problem, SceneError, count, excerpt};
+use super::rule::Rule;
 use super::syntax;
 use super::units::Units;
 use std::cell::RefCell;
@@ -219,6 +220,25 @@ impl<'t> Item<'t> {
             _ => None,
         };
         self.found(value, "a number").unwrap_or(f64::NAN)
+    }
+
+    /// Reports what is wrong with a number that has no place in the scene.
+    pub(super) fn look_at(&self, rule: Rule, units: Units) {
+        let known = self.document.problems.borrow().len();
+        let value = self.quantity(rule.units(units));
+        let is_readable = self.document.problems.borrow().len() == known;
+        if is_readable && !rule.holds(value) {
+            self.refuse(rule.expected(units));
+        }
+    }
+
+    /// The same of a list of one number for each floor or storey, as `each` says, where it is known how many there are.
+    pub(super) fn look_at_list(&self, rule: Rule, units: Units, floors: usize, each: &str) {
+        let Some(entries) = self.list("a list of numbers") else { return };
+        if floors > 0 && entries.len() != floors {
+            self.refuse(format!("{}, one per {each}, not {}", count(floors, "number"), entries.len()));
+        }
+        entries.iter().for_each(|entry| entry.look_at(rule, units));
     }
 
     /// Neutral: 0.

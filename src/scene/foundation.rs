@@ -23,7 +23,7 @@ pub struct Soil {
 }
 
 /// A number of a foundation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FoundationKey {
     /// kg.
     Mass,
@@ -40,6 +40,10 @@ pub enum FoundationKey {
 }
 
 impl FoundationKey {
+    /// Those that natural frequencies depend on.
+    pub const OF_FREQUENCIES: [FoundationKey; 4] =
+        [FoundationKey::Mass, FoundationKey::Inertia, FoundationKey::SwayStiffness, FoundationKey::RockingStiffness];
+
     /// The last part of its name among the variables.
     pub const fn name(self) -> &'static str {
         match self {
@@ -50,11 +54,6 @@ impl FoundationKey {
             FoundationKey::RockingStiffness => "rocking_stiffness",
             FoundationKey::RockingDashpot => "rocking_dashpot",
         }
-    }
-
-    /// Whether natural frequencies depend on it.
-    pub const fn is_of_frequencies(self) -> bool {
-        !matches!(self, FoundationKey::SwayDashpot | FoundationKey::RockingDashpot)
     }
 }
 

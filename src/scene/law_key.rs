@@ -48,8 +48,14 @@ pub fn number(key: LawKey) -> LawNumber {
     }
 }
 
+/// The key of each name, as the law that allows it the most has it.
+pub(super) fn widest() -> impl Iterator<Item = LawNumber> {
+    // A restitution of 0 is that of an impulse alone.
+    all().into_iter().filter(|key| *key != LawKey::Restitution).map(number)
+}
+
 /// Every key that some law has, once.
-pub(super) fn all() -> Vec<LawKey> {
+fn all() -> Vec<LawKey> {
     let mut keys = Vec::new();
     for &key in LawKind::ALL.iter().flat_map(|kind| kind.info().keys) {
         if !keys.contains(&key) {

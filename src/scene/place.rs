@@ -1,7 +1,7 @@
 //! Which displacement of a building is meant.
 
 /// A displacement of a building: of one of its floors, or of its foundation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// Of a floor, counted from 0.
     Floor(usize),

@@ -153,19 +153,30 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     section.get("initial_displacement").inspect(|item| building.initial_displacement = item.numbers());
     section.get("initial_velocity").inspect(|item| building.initial_velocity = item.numbers());
     building.heights = heights(&mut section);
-    building.yielding = yielding(&mut section, &building.stiffness, units);
+    building.yielding = yielding(&mut section, &building.stiffness, building.mass.len(), units);
     building.p_delta = p_delta(&mut section, building.yielding.is_some(), building.mass.len(), units);
     building.foundation = read_foundation::of_building(&mut section, units);
     section.close(KEY);
     building
 }
 
+const ONLY_THOSE_COLLAPSE: &str = "yield_force as well: only storeys that yield collapse";
+
 fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Units) -> Option<PDelta> {
     let (leaning, load) = (section.get("p_delta"), section.get("gravity_load"));
     let ratio = section.get("collapse_drift_ratio");
     let Some(leaning) = leaning else {
-        load.inspect(|item| item.refuse("p_delta as well, the storeys that gravity pushes on as they lean"));
-        ratio.inspect(|item| item.refuse("p_delta as well: without gravity no storey collapses"));
+        if let Some(load) = load {
+            load.refuse("p_delta as well, the storeys that gravity pushes on as they lean");
+            load.look_at_list(rule::GRAVITY_LOAD, units, storeys, "floor");
+        }
+        if let Some(ratio) = ratio {
+            ratio.refuse("p_delta as well: without gravity no storey collapses");
+            if !can_yield {
+                ratio.refuse(ONLY_THOSE_COLLAPSE);
+            }
+            ratio.look_at(rule::COLLAPSE_DRIFT_RATIO, units);
+        }
         return None;
     };
     let mut p_delta = PDelta::new(match leaning.is_list() {
@@ -176,20 +187,28 @@ fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Un
     if let Some(item) = ratio {
         match can_yield {
             true => p_delta.collapse_drift_ratio = item.number(),
-            false => item.refuse("yield_force as well: only storeys that yield collapse"),
+            false => {
+                item.refuse(ONLY_THOSE_COLLAPSE);
+                item.look_at(rule::COLLAPSE_DRIFT_RATIO, units);
+            }
         }
     }
     Some(p_delta)
 }
 
-fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> Option<Yielding> {
+fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, storeys: usize, units: Units) -> Option<Yielding> {
     let (force, ratio) = (section.get("yield_force"), section.get("post_yield_ratio"));
     let Some(force) = force else {
-        ratio.inspect(|item| item.refuse("yield_force as well, the storey shears at first yield"));
+        if let Some(ratio) = ratio {
+            ratio.refuse("yield_force as well, the storey shears at first yield");
+            look_at_ratio(&ratio, storeys);
+        }
         return None;
     };
     if matches!(stiffness, Stiffness::Matrix(_)) {
         force.refuse("a shear building, with stiffness instead of stiffness_matrix: only storeys yield");
+        force.look_at_list(rule::YIELD_FORCE.or_infinite(), units, storeys, "storey");
+        ratio.inspect(|ratio| look_at_ratio(ratio, storeys));
         return None;
     }
     let force = force.quantities(units);
@@ -205,10 +224,21 @@ fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> O
     Some(Yielding { force, ratio })
 }
 
+/// What is wrong with post-yield ratios, one or one per storey, of storeys that do not yield.
+fn look_at_ratio(ratio: &Item<'_>, storeys: usize) {
+    match ratio.is_list() {
+        true => ratio.look_at_list(rule::POST_YIELD_RATIO, Units::Si, storeys, "storey"),
+        false => ratio.look_at(rule::POST_YIELD_RATIO, Units::Si),
+    }
+}
+
 fn heights(section: &mut Section<'_>) -> Option<Heights> {
     let (storeys, base_level) = (section.get("height"), section.get("base_level"));
     let Some(storeys) = storeys else {
-        base_level.inspect(|item| item.refuse("height as well, the heights of the storeys above that level"));
+        if let Some(level) = base_level {
+            level.refuse("height as well, the heights of the storeys above that level");
+            level.look_at(rule::LEVEL, Units::Si);
+        }
         return None;
     };
     Some(Heights { storeys: storeys.numbers(), base_level: base_level.map_or(0.0, |item| item.number()) })
@@ -285,15 +315,13 @@ fn ground(mut section: Section<'_>) -> Ground {
     }
     // Both are looked at, so that what is wrong with either is said at once.
     let scale = scale.map(|item| item.number());
-    let scaling = match (scale, pga.map(|item| (item.number(), item))) {
-        (Some(scale), Some((pga, item))) => {
-            if pga.is_finite() && !rule::PGA.holds(pga) {
-                item.refuse(rule::PGA.expected(Units::Si));
-            }
+    let scaling = match (scale, pga) {
+        (Some(scale), Some(pga)) => {
+            pga.look_at(rule::PGA, Units::Si);
             Scaling::Scale(scale)
         }
         (Some(scale), None) => Scaling::Scale(scale),
-        (None, Some((pga, _))) => Scaling::Pga(pga),
+        (None, Some(pga)) => Scaling::Pga(pga.number()),
         (None, None) => Scaling::Scale(1.0),
     };
     let record = record.and_then(|item| item.text()).map(str::to_owned);

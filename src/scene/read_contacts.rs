@@ -212,9 +212,9 @@ fn position_by_levels(
 
 fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
     let Some(kind) = law_kind(&mut section) else {
-        // Which keys belong here, and what they may be, is the law's business: only their types can be looked at.
-        for key in law_key::all() {
-            section.get(law_key::number(key).name).inspect(|item| _ = item.number());
+        // Which keys belong here is the law's business: only what no law allows them to be is refused.
+        for key in law_key::widest() {
+            section.get(key.name).inspect(|item| item.look_at(key.rule, units));
         }
         section.get("damping_formula").inspect(|item| _ = item.text());
         section.close(KEY);

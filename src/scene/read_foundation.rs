@@ -2,6 +2,7 @@
 
 use super::document::{Item, KEY, Section};
 use super::foundation::{Foundation, Soil};
+use super::rule;
 use super::units::Units;
 
 /// The foundation of a building, if it has one.
@@ -14,15 +15,15 @@ fn foundation(mut section: Section<'_>, units: Units) -> Foundation {
     let inertia = section.get("inertia");
     let (sway, rocking) = (section.get("sway"), section.get("rocking"));
     match (&inertia, &rocking) {
-        (Some(inertia), None) => inertia.refuse("rocking as well: a foundation that does not rock turns no inertia"),
+        (Some(inertia), None) => {
+            inertia.refuse("rocking as well: a foundation that does not rock turns no inertia");
+            inertia.look_at(rule::MOMENT_OF_INERTIA, units);
+        }
         (None, Some(_)) => {
             let what = format!("the moment of inertia in {} of what rocks, foundation and floors", units.unit("kg m2"));
             section.missing("inertia", &what);
         }
         _ => {}
-    }
-    if sway.is_none() && rocking.is_none() {
-        section.refuse("sway, rocking or both: the springs and dashpots of the soil, without which it is a fixed base");
     }
     let of = |item: Option<Item<'_>>, unit: &str| item.map(|item| soil(item.section(), (units, unit)));
     let foundation = Foundation {

@@ -12,17 +12,23 @@ pub struct Rule {
     in_kn_t: Option<&'static str>,
     /// Of the SI number.
     holds: fn(f64) -> bool,
+    takes_infinity: bool,
 }
 
 impl Rule {
     /// Of a number without mass and force in its unit.
     const fn of(expected: &'static str, holds: fn(f64) -> bool) -> Rule {
-        Rule { expected, in_kn_t: None, holds }
+        Rule { expected, in_kn_t: None, holds, takes_infinity: false }
     }
 
     /// Of one with a mass or a force in its unit, in words for either kind of units.
     const fn of_force(expected: &'static str, in_kn_t: &'static str, holds: fn(f64) -> bool) -> Rule {
-        Rule { expected, in_kn_t: Some(in_kn_t), holds }
+        Rule { expected, in_kn_t: Some(in_kn_t), holds, takes_infinity: false }
+    }
+
+    /// The same of a number that may be infinite as well.
+    pub(super) const fn or_infinite(self) -> Rule {
+        Rule { takes_infinity: true, ..self }
     }
 
     /// For a person, after "expected", about a scene in these units.
@@ -38,9 +44,9 @@ impl Rule {
         if self.in_kn_t.is_some() { units } else { Units::Si }
     }
 
-    /// Whether the number is allowed; never so for one that is not finite.
+    /// Whether the number is allowed; never so for one that is not finite, unless its rule takes infinity.
     pub fn holds(&self, value: f64) -> bool {
-        value.is_finite() && (self.holds)(value)
+        (value.is_finite() || self.takes_infinity && value == f64::INFINITY) && (self.holds)(value)
     }
 
     /// The problem with a number found at a path, if there is one.

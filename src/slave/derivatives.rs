@@ -4,7 +4,7 @@
 use super::instance::Slave;
 use super::sequence::{Call, Phase};
 use super::status::{Refusal, Status};
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, Unit, by_parameter};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, InitialDependencies, Slot, Type, Unit, by_parameter};
 
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
@@ -57,6 +57,9 @@ impl Slave {
     }
 
     fn output_derivative(&mut self, reference: u32, order: i32) -> Result<Result<f64, String>, Refusal> {
+        if self.is_time(reference) {
+            return Ok(Err("time: the independent variable has no derivatives; expected an output".to_owned()));
+        }
         let Some(row) = self.table.row(reference) else { return Ok(Err(self.unknown(reference))) };
         let Slot::Output(output) = row.slot else { return Ok(Err(format!("{}: expected an output", row.name))) };
         if !matches!(row.ty, Type::Real(_)) {
@@ -138,12 +141,19 @@ impl Slave {
             Slot::Input(input) => Some((input, change)),
             _ => None,
         }));
+        let is_parameter = |known| table.row(known).is_some_and(|row| matches!(row.slot, Slot::Parameter(_)));
+        let has_parameters = changes.iter().any(|&(known, _)| is_parameter(known));
+        let dependencies = has_parameters.then(|| InitialDependencies::of(&settings.scene));
         for (i, &unknown) in unknowns.iter().enumerate() {
             let Some(unknown) = table.row(unknown) else { continue };
             let mut sum = simulation.response(unknown.slot);
+            let depends_on = dependencies.as_ref().map_or_else(Vec::new, |of| of.at_start(unknown.slot));
             for (known, change) in changes.iter().filter_map(|&(known, change)| Some((table.row(known)?, change))) {
                 let Slot::Parameter(parameter) = known.slot else { continue };
-                match by_parameter(&settings.scene, simulation.model(), unknown.slot, parameter) {
+                if !depends_on.contains(&known.slot) {
+                    continue;
+                }
+                match by_parameter(simulation.model(), unknown.slot, parameter) {
                     Some(derivative) => sum += derivative * change,
                     None => problems.push(format!(
                         "{} with respect to {}: no derivative; expected an input, or a frequency with respect to masses \
@@ -191,14 +201,18 @@ impl Slave {
         is_one: impl Fn(Slot, bool) -> bool,
         [expected, more]: [&str; 2],
     ) -> Result<&str, String> {
-        let row = self.table.row(reference).ok_or_else(|| self.unknown(reference))?;
         let at_start = self.phase == Phase::Initialization;
+        let more = if at_start { more } else { "" };
+        let expected = format!("expected {expected}{more} of type {}", self.real());
+        if self.is_time(reference) {
+            return Err(format!(
+                "{role} time: there are no derivatives of or with respect to the independent variable; {expected}"
+            ));
+        }
+        let row = self.table.row(reference).ok_or_else(|| self.unknown(reference))?;
         match row.ty {
             Type::Real(_) if is_one(row.slot, at_start) => Ok(&row.name),
-            _ => {
-                let more = if at_start { more } else { "" };
-                Err(format!("{role} {}: expected {expected}{more} of type {}", row.name, self.real()))
-            }
+            _ => Err(format!("{role} {}: {expected}", row.name)),
         }
     }
 }

@@ -2,7 +2,8 @@
 //! Those at the start are in `initial_dependencies.rs`.
 
 use crate::engine::{ContactOutput, FoundationOutput, Input, Output, Side};
-use crate::scene::{Place, Scene};
+use crate::scene::{ContactPair, Place, Scene};
+use std::collections::HashMap;
 
 /// How an unknown depends on a known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,58 +15,105 @@ pub enum Dependence {
     Dependent,
 }
 
-/// Whether and how an output at a communication point answers at once to an input that is set there.
+/// Which displacement of which building.
+pub(super) type Movement = (Side, Place);
+
+/// Which inputs the outputs of a scene answer to at once, at a communication point at which they are set.
 ///
 /// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, and
 /// where floors are held together it accelerates all of them and changes the forces between them. The ground
 /// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
 /// the ground has a share.
-pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> Option<Dependence> {
-    let place = match output {
-        Output::Acceleration(side, floor) => (side, Place::Floor(floor)),
-        Output::Foundation(side, FoundationOutput::Acceleration) => (side, Place::Foundation),
-        Output::Contact(p, ContactOutput::Force) if scene.contacts[p].law.is_rigid() => floors(scene, p)[0],
-        _ => return None,
-    };
-    let answers = match input {
-        Input::Force(side, floor) => held_with(scene, place).contains(&(side, Place::Floor(floor))),
-        Input::GroundAcceleration => is_held_to_ground(scene, place),
-    };
-    let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == place));
-    answers.then_some(if is_free { Dependence::Fixed } else { Dependence::Dependent })
+#[derive(Debug)]
+pub struct Dependencies<'a> {
+    scene: &'a Scene,
+    /// What moves together while all rigid contacts are closed.
+    groups: Vec<Group>,
+    /// The group of each that is in one.
+    group_of: HashMap<Movement, usize>,
 }
 
-/// Those in the row of a contact.
-pub(super) fn floors(scene: &Scene, p: usize) -> Vec<(Side, Place)> {
-    scene.contacts[p].row(scene).map(|share| (share.side, share.place)).collect()
+#[derive(Debug)]
+struct Group {
+    members: Vec<Movement>,
+    /// Whether the ground has a share in any of its contacts.
+    has_ground: bool,
 }
 
-/// The floors in the row of each rigid contact.
-fn rigid_rows(scene: &Scene) -> impl Iterator<Item = impl Iterator<Item = (Side, Place)> + '_> + '_ {
-    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid());
-    rigid.map(|pair| pair.row(scene).map(|share| (share.side, share.place)))
-}
-
-/// The floors whose motions depend on each other while all rigid contacts are closed, with a given one of them.
-fn held_with(scene: &Scene, floor: (Side, Place)) -> Vec<(Side, Place)> {
-    let rows: Vec<Vec<(Side, Place)>> = rigid_rows(scene).map(Iterator::collect).collect();
-    let mut group = vec![floor];
-    let mut reached = 0;
-    while reached < group.len() {
-        let floor = group[reached];
-        for &together in rows.iter().filter(|row| row.contains(&floor)).flatten() {
-            if !group.contains(&together) {
-                group.push(together);
-            }
+impl<'a> Dependencies<'a> {
+    /// Those of a scene.
+    pub fn of(scene: &'a Scene) -> Dependencies<'a> {
+        let rigid: Vec<_> = scene.contacts.iter().filter(|pair| pair.law.is_rigid()).collect();
+        let rows: Vec<Vec<Movement>> = rigid.iter().map(|pair| movements(scene, pair)).collect();
+        let rows_of = rows_by_movement(rows.iter().map(|row| row.iter().copied()));
+        let mut dependencies = Dependencies { scene, groups: Vec::new(), group_of: HashMap::new() };
+        for &first in rows.iter().flatten() {
+            dependencies.add_group(first, &rows, &rows_of);
         }
-        reached += 1;
+        for (_, row) in rigid.iter().zip(&rows).filter(|(pair, _)| pair.has_ground(scene)) {
+            // Those of one row are in one group.
+            let group = row.first().and_then(|first| dependencies.group_of.get(first));
+            group.into_iter().for_each(|group| dependencies.groups[*group].has_ground = true);
+        }
+        dependencies
     }
-    group
+
+    /// All that moves with something, unless it is known already.
+    fn add_group(&mut self, first: Movement, rows: &[Vec<Movement>], rows_of: &HashMap<Movement, Vec<usize>>) {
+        let group = self.groups.len();
+        if self.group_of.contains_key(&first) {
+            return;
+        }
+        self.group_of.insert(first, group);
+        let (mut members, mut reached) = (vec![first], 0);
+        while reached < members.len() {
+            for &other in rows_of[&members[reached]].iter().flat_map(|row| &rows[*row]) {
+                if self.group_of.insert(other, group).is_none() {
+                    members.push(other);
+                }
+            }
+            reached += 1;
+        }
+        self.groups.push(Group { members, has_ground: false });
+    }
+
+    /// The inputs that an output answers to, in no order, and how.
+    pub fn at_communication_points(&self, output: Output) -> Vec<(Input, Dependence)> {
+        let place = match output {
+            Output::Acceleration(side, floor) => Some((side, Place::Floor(floor))),
+            Output::Foundation(side, FoundationOutput::Acceleration) => Some((side, Place::Foundation)),
+            Output::Contact(p, ContactOutput::Force) => {
+                let pair = Some(&self.scene.contacts[p]).filter(|pair| pair.law.is_rigid());
+                pair.and_then(|pair| movements(self.scene, pair).first().copied())
+            }
+            _ => None,
+        };
+        let Some(place) = place else { return Vec::new() };
+        let force = |(side, place): Movement| Some(Input::Force(side, place.floor()?));
+        let Some(&group) = self.group_of.get(&place) else {
+            return force(place).map(|input| (input, Dependence::Fixed)).into_iter().collect();
+        };
+        let Group { members, has_ground } = &self.groups[group];
+        let ground = has_ground.then_some(Input::GroundAcceleration);
+        let inputs = members.iter().copied().filter_map(force).chain(ground);
+        inputs.map(|input| (input, Dependence::Dependent)).collect()
+    }
 }
 
-/// Whether the ground has a share in any rigid contact of the floors that move with a floor.
-fn is_held_to_ground(scene: &Scene, floor: (Side, Place)) -> bool {
-    let group = held_with(scene, floor);
-    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid() && pair.has_ground(scene));
-    rigid.flat_map(|pair| pair.row(scene)).any(|share| group.contains(&(share.side, share.place)))
+/// What the row of a contact moves.
+pub(super) fn movements(scene: &Scene, pair: &ContactPair) -> Vec<Movement> {
+    pair.row(scene).map(|share| (share.side, share.place)).collect()
+}
+
+/// The numbers of the rows in which each of their movements is.
+pub(super) fn rows_by_movement(
+    rows: impl Iterator<Item = impl Iterator<Item = Movement>>,
+) -> HashMap<Movement, Vec<usize>> {
+    let mut found: HashMap<Movement, Vec<usize>> = HashMap::new();
+    for (number, row) in rows.enumerate() {
+        for movement in row {
+            found.entry(movement).or_default().push(number);
+        }
+    }
+    found
 }

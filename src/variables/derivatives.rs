@@ -1,19 +1,14 @@
 //! Derivatives of initial unknowns with respect to parameters. Those of outputs with respect to time and to inputs are
 //! the engine's.
 
-use super::initial_dependencies::at_start;
 use super::slot::{Calculated, Parameter, Slot};
 use crate::engine::{ContactOutput, Model, Output};
-use crate::scene::Scene;
 
 /// The highest order of the derivatives of outputs with respect to time.
 pub const HIGHEST_OUTPUT_DERIVATIVE: u8 = 2;
 
-/// The derivative of an initial unknown with respect to a parameter, where there is a closed form of it.
-pub fn by_parameter(scene: &Scene, model: &Model, unknown: Slot, parameter: Parameter) -> Option<f64> {
-    if !at_start(scene, unknown, Slot::Parameter(parameter)) {
-        return Some(0.0);
-    }
+/// The derivative of an initial unknown with respect to a parameter that it depends on, where there is a closed form of it.
+pub fn by_parameter(model: &Model, unknown: Slot, parameter: Parameter) -> Option<f64> {
     match (unknown, parameter) {
         (Slot::Calculated(Calculated::Frequency(side, mode)), Parameter::Mass(_, floor)) => {
             model.frequency_by_mass(side, mode, floor)

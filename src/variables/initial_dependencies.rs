@@ -3,246 +3,357 @@
 //!
 //! The initial displacements and velocities belong to the scene: a factor of an initial value that is 0 does not
 //! matter. Whether floors overlap at the start is up to the gaps, which are parameters.
+//!
+//! What an unknown depends on is listed, and no known is asked whether it does: tall buildings have thousands of unknowns
+//! and thousands of knowns.
 
-use super::dependencies::floors;
+use super::dependencies::{Movement, movements, rows_by_movement};
 use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
 use crate::engine::{
     ContactOutput, EnergyOutput, FoundationOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf,
 };
-use crate::scene::{Building, Damping, FoundationKey, Place, Scene, Share, Stiffness};
+use crate::scene::{Building, ContactPair, Damping, FoundationKey, Place, Scene, Share, Stiffness};
+use std::collections::HashMap;
 
-/// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
-/// `known` an input or a parameter.
-pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
-    use ContactOutput as C;
-    let output = match unknown {
-        Slot::Calculated(Calculated::Frequency(side, _)) => return is_of_modes(side, known),
-        Slot::Calculated(Calculated::StabilityCoefficient(side, storey)) => {
-            return known == Slot::Parameter(Parameter::Stiffness(side, storey))
-                || is_of_weight(scene, (side, storey), known);
+/// What the unknowns of a scene depend on at the start time.
+#[derive(Debug)]
+pub struct InitialDependencies<'a> {
+    scene: &'a Scene,
+    contacts: Vec<Contact>,
+    /// The contacts, and the links, that push a floor or a foundation.
+    contacts_of: HashMap<Movement, Vec<usize>>,
+    links_of: HashMap<Movement, Vec<usize>>,
+    /// Whether there may be a C v at the start, left and right.
+    is_damped: [bool; 2],
+}
+
+/// What of a contact decides what depends on it.
+#[derive(Debug)]
+struct Contact {
+    row: Vec<Movement>,
+    /// Whether anything of its row starts out of place.
+    is_displaced: bool,
+    dashpot_acts: bool,
+}
+
+impl<'a> InitialDependencies<'a> {
+    /// Those of a scene.
+    pub fn of(scene: &'a Scene) -> InitialDependencies<'a> {
+        let contacts: Vec<Contact> = scene.contacts.iter().map(|pair| Contact::of(scene, pair)).collect();
+        InitialDependencies {
+            scene,
+            contacts_of: rows_by_movement(contacts.iter().map(|contact| contact.row.iter().copied())),
+            links_of: rows_by_movement(scene.links.iter().map(|link| link.ends().map(|(side, end, _)| (side, end)))),
+            contacts,
+            is_damped: Side::BOTH.map(|side| is_damped(scene.building(side))),
         }
-        Slot::Calculated(Calculated::CriticalDrift(side, storey)) => {
-            return is_of_net_storey(scene, known, (side, storey));
+    }
+
+    /// The inputs and parameters that an output or a calculated parameter may depend on: in no order, some maybe more than
+    /// once, and some that the scene does not have.
+    pub fn at_start(&self, unknown: Slot) -> Vec<Slot> {
+        let parameters = match unknown {
+            Slot::Calculated(calculated) => self.of_calculated(calculated),
+            Slot::Output(output) => self.of_output(output),
+            Slot::Input(_) | Slot::Parameter(_) => Vec::new(),
+        };
+        let input = match unknown {
+            Slot::Output(Output::Acceleration(side, floor)) => Some(Slot::Input(Input::Force(side, floor))),
+            _ => None,
+        };
+        parameters.into_iter().map(Slot::Parameter).chain(input).collect()
+    }
+
+    fn of_calculated(&self, calculated: Calculated) -> Vec<Parameter> {
+        match calculated {
+            Calculated::Frequency(side, _) => self.modes(side),
+            Calculated::StabilityCoefficient(side, storey) => {
+                [self.weights(side, &[storey]), vec![Parameter::Stiffness(side, storey)]].concat()
+            }
+            Calculated::CriticalDrift(side, storey) => self.net_storeys(side, &[storey]),
+            Calculated::SystemFrequency(_) => {
+                let links = (0..self.scene.links.len()).map(Parameter::LinkStiffness);
+                let of_sides = Side::BOTH.into_iter().flat_map(|side| [self.modes(side), soil(side)]).flatten();
+                of_sides.chain(links).collect()
+            }
+            Calculated::PeriodRatio(side) => [self.modes(side), soil(side)].concat(),
         }
-        Slot::Calculated(Calculated::SystemFrequency(_)) => {
-            let is_of_building = Side::BOTH.into_iter().any(|side| is_of_modes(side, known));
-            let is_of_soil = Side::BOTH.into_iter().any(|side| is_of_foundation(side, known));
-            return is_of_building || is_of_soil || matches!(known, Slot::Parameter(Parameter::LinkStiffness(_)));
+    }
+
+    fn of_output(&self, output: Output) -> Vec<Parameter> {
+        match output {
+            Output::GroundAcceleration => vec![Parameter::GroundScale, Parameter::GroundRecord],
+            Output::Displacement(..) | Output::Velocity(..) => Vec::new(),
+            Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::LinkDisplacement(_)) => Vec::new(),
+            // The largest drift so far is known; the stiffness of the storey is a parameter.
+            Output::OfStorey(StoreyPeak::DriftRatio, ..) => Vec::new(),
+            Output::OfStorey(StoreyPeak::Shear, side, storey) => self.storey_that_drifts(side, storey),
+            Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
+                let hits = |p: &usize| self.scene.contacts[*p].columns() == Some((side, storey + 1));
+                (0..self.contacts.len()).filter(hits).flat_map(|p| self.contact_force(p)).collect()
+            }
+            Output::OfYielding(of, side, storey) => self.of_yielding(of, side, storey),
+            // Whether a storey yields begins with the first step.
+            Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => Vec::new(),
+            // No floor force has acted yet, without which an acceleration is not known.
+            Output::Peak(PeakOf::Acceleration(..)) if self.scene.floor_forces => Vec::new(),
+            Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => self.base_shear(side),
+            Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
+                self.acceleration(side, Place::Floor(floor))
+            }
+            Output::Contact(p, of) => self.of_contact(p, of),
+            Output::Link(l, LinkOutput::Force) | Output::Peak(PeakOf::LinkForce(l)) => self.link_force(l),
+            Output::Link(l, LinkOutput::Slip) => without(self.spring(l), Parameter::LinkPostYieldRatio(l)),
+            // Neither motion nor anything that begins with the first step.
+            Output::Link(
+                _,
+                LinkOutput::Displacement
+                | LinkOutput::Velocity
+                | LinkOutput::DissipatedEnergy
+                | LinkOutput::SlipTravel
+                | LinkOutput::Slipping,
+            ) => Vec::new(),
+            Output::Foundation(side, FoundationOutput::Acceleration) => self.acceleration(side, Place::Foundation),
+            // It begins at rest.
+            Output::Foundation(..) => Vec::new(),
+            Output::Impacts => {
+                (0..self.contacts.len()).flat_map(|p| self.of_contact(p, ContactOutput::Impacts)).collect()
+            }
+            Output::Energy(term) => self.energy(term),
         }
-        Slot::Calculated(Calculated::PeriodRatio(side)) => {
-            return is_of_modes(side, known) || is_of_foundation(side, known);
+    }
+
+    fn of_yielding(&self, of: YieldingOf, side: Side, storey: usize) -> Vec<Parameter> {
+        match of {
+            // What has been dissipated begins with the first step.
+            YieldingOf::HystereticEnergy | YieldingOf::CumulativePlasticDrift => Vec::new(),
+            YieldingOf::Ductility | YieldingOf::PlasticDrift => {
+                without(self.storey_that_drifts(side, storey), Parameter::PostYieldRatio(side, storey))
+            }
+            YieldingOf::Shear => self.storey_that_drifts(side, storey),
+            YieldingOf::PeakStabilityIndex => self.net_storeys_that_drift(side, [storey]),
+            YieldingOf::ResidualDrift => [self.net_storeys_that_drift(side, [storey]), self.rest(side)].concat(),
         }
-        Slot::Output(output) => output,
-        Slot::Input(_) | Slot::Parameter(_) => return false,
-    };
-    match output {
-        Output::GroundAcceleration => {
-            matches!(known, Slot::Parameter(Parameter::GroundScale | Parameter::GroundRecord))
+    }
+
+    fn of_contact(&self, p: usize, of: ContactOutput) -> Vec<Parameter> {
+        use ContactOutput as C;
+        match of {
+            C::Penetration => self.distance(p),
+            C::Active | C::Impacts if self.is_pushed(p) => self.distance(p),
+            C::Active | C::Impacts => Vec::new(),
+            C::Force | C::PeakForce => self.contact_force(p),
+            // Nothing has been done yet, and an overlap at the start has no approach velocity.
+            C::Impulse | C::DissipatedEnergy | C::ApproachVelocity => Vec::new(),
         }
-        Output::Displacement(..) | Output::Velocity(..) => false,
-        Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..)) => false,
-        // The largest drift so far is known; the stiffness of the storey is a parameter.
-        Output::OfStorey(StoreyPeak::DriftRatio, ..) => false,
-        Output::OfStorey(StoreyPeak::Shear, side, storey) => {
-            is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
+    }
+
+    /// What modes depend on, and so damping that is given by modes.
+    fn modes(&self, side: Side) -> Vec<Parameter> {
+        let floors = 0..self.scene.building(side).mass.len();
+        floors.flat_map(|i| [Parameter::Mass(side, i), Parameter::Stiffness(side, i)]).collect()
+    }
+
+    /// The masses whose weights push any of some storeys on that lean: those above the lowest of them.
+    fn weights(&self, side: Side, storeys: &[usize]) -> Vec<Parameter> {
+        let building = self.scene.building(side);
+        let leaning = storeys.iter().filter(|storey| building.weighs_by_mass() && building.leans(**storey));
+        let floors = leaning.min().map(|lowest| *lowest..building.mass.len());
+        floors.into_iter().flatten().map(|floor| Parameter::Mass(side, floor)).collect()
+    }
+
+    /// What changes the forces by stiffness and gravity with which storeys resist given drifts.
+    fn net_storeys(&self, side: Side, storeys: &[usize]) -> Vec<Parameter> {
+        let own = storeys.iter().flat_map(|storey| of_storey(side, *storey));
+        own.chain(self.weights(side, storeys)).collect()
+    }
+
+    /// The same of those that drift at the start.
+    fn net_storeys_that_drift(&self, side: Side, storeys: impl IntoIterator<Item = usize>) -> Vec<Parameter> {
+        let drifting = storeys.into_iter().filter(|storey| drifts(self.scene.building(side), *storey));
+        self.net_storeys(side, &drifting.collect::<Vec<_>>())
+    }
+
+    /// What changes the shear of a storey, if it drifts at the start.
+    fn storey_that_drifts(&self, side: Side, storey: usize) -> Vec<Parameter> {
+        if drifts(self.scene.building(side), storey) { of_storey(side, storey).to_vec() } else { Vec::new() }
+    }
+
+    /// What changes where a storey rests by the others that rest with it: those of a building that leans on its soil, and
+    /// all that links join.
+    fn rest(&self, side: Side) -> Vec<Parameter> {
+        let building = self.scene.building(side);
+        let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
+        let (is_linked, leans) = (!self.scene.links.is_empty(), rocks && building.has_gravity());
+        let within = || Side::BOTH.into_iter().filter(|s| is_linked || leans && *s == side);
+        let of_storeys = |s: Side| self.net_storeys_that_drift(s, 0..self.scene.building(s).mass.len());
+        let mut parameters: Vec<Parameter> = within().flat_map(of_storeys).collect();
+        let is_displaced = |s: Side| self.scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
+        if within().any(is_displaced) {
+            parameters.extend(within().map(|s| Parameter::Foundation(s, FoundationKey::RockingStiffness)));
         }
-        // What has been dissipated, and whether a storey yields, begins with the first step.
-        Output::OfYielding(YieldingOf::HystereticEnergy | YieldingOf::CumulativePlasticDrift, ..)
-        | Output::Yielding(..)
-        | Output::Collapsed(_)
-        | Output::CollapseTime(_) => false,
-        Output::OfYielding(YieldingOf::Ductility | YieldingOf::PlasticDrift, side, storey) => {
-            let is_ratio = known == Slot::Parameter(Parameter::PostYieldRatio(side, storey));
-            is_of_storey(known, (side, storey)) && !is_ratio && drifts(scene.building(side), storey)
+        if is_linked && within().any(is_displaced) {
+            parameters.extend(within().map(|s| Parameter::Foundation(s, FoundationKey::SwayStiffness)));
+            parameters.extend((0..self.scene.links.len()).flat_map(of_spring));
         }
-        Output::OfYielding(YieldingOf::Shear, side, storey) => {
-            is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
+        parameters
+    }
+
+    /// The sum of K u is the force of the lowest storey.
+    fn base_shear(&self, side: Side) -> Vec<Parameter> {
+        [self.net_storeys_that_drift(side, [0]), self.damping_force(side, [0, 0])].concat()
+    }
+
+    /// Forces on a floor over its mass, or on a foundation that nothing has moved yet.
+    fn acceleration(&self, side: Side, place: Place) -> Vec<Parameter> {
+        let pushing = |of: &HashMap<Movement, Vec<usize>>| of.get(&(side, place)).cloned().unwrap_or_default();
+        let (contacts, links) = (pushing(&self.contacts_of), pushing(&self.links_of));
+        let storeys = match place {
+            Place::Floor(floor) => [floor, floor + 1],
+            Place::Foundation | Place::Rotation => [0, 0],
+        };
+        let mut parameters = self.net_storeys_that_drift(side, storeys);
+        parameters.extend(self.damping_force(side, storeys));
+        parameters.extend(contacts.iter().flat_map(|p| self.contact_force(*p)));
+        parameters.extend(links.iter().flat_map(|l| self.link_force(*l)));
+        let building = self.scene.building(side);
+        let is_strained = match &building.stiffness {
+            Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
+            Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
+        };
+        let is_forced = self.scene.floor_forces && place != Place::Foundation;
+        let is_held = || links.iter().any(|l| self.closing(*l) != [0.0; 2]);
+        let is_pushed = || contacts.iter().any(|p| self.is_pushed(*p));
+        if is_forced || is_strained || self.is_damped[side as usize] || is_held() || is_pushed() {
+            parameters.push(match place {
+                Place::Floor(floor) => Parameter::Mass(side, floor),
+                Place::Foundation | Place::Rotation => Parameter::Foundation(side, FoundationKey::Mass),
+            });
         }
-        Output::OfYielding(YieldingOf::PeakStabilityIndex, side, storey) => {
-            is_of_net_storey(scene, known, (side, storey)) && drifts(scene.building(side), storey)
+        parameters
+    }
+
+    /// C v of some floors of a building, which storeys with dashpots of their own give.
+    fn damping_force(&self, side: Side, storeys: [usize; 2]) -> Vec<Parameter> {
+        let building = self.scene.building(side);
+        let moving = storeys.into_iter().filter(|storey| differ(&building.initial_velocity, *storey));
+        let mut parameters: Vec<Parameter> = moving.map(|storey| Parameter::Dashpot(side, storey)).collect();
+        if self.is_damped[side as usize] {
+            parameters.push(Parameter::DampingRatio(side));
+            if !matches!(building.damping, Damping::Matrix(_) | Damping::Dashpots(_)) {
+                parameters.extend(self.modes(side));
+            }
         }
-        Output::OfYielding(YieldingOf::ResidualDrift, side, storey) => {
-            is_of_net_storey(scene, known, (side, storey)) && drifts(scene.building(side), storey)
-                || is_of_rest(scene, side, known)
+        parameters
+    }
+
+    /// Displacement and velocity of a link at the start.
+    fn closing(&self, l: usize) -> [f64; 2] {
+        let of = |motion: fn(&Building) -> &[f64]| {
+            let at_start = |side, place| Building::at_start(motion(self.scene.building(side)), place);
+            self.scene.links[l].ends().map(|(side, place, weight)| weight * at_start(side, place)).sum()
+        };
+        [of(|building| &building.initial_displacement), of(|building| &building.initial_velocity)]
+    }
+
+    /// What changes the force of the spring of a link at the start.
+    fn spring(&self, l: usize) -> Vec<Parameter> {
+        if self.closing(l)[0] != 0.0 { of_spring(l).to_vec() } else { Vec::new() }
+    }
+
+    fn link_force(&self, l: usize) -> Vec<Parameter> {
+        let dashpot = (self.closing(l)[1] != 0.0).then_some(Parameter::LinkDashpot(l));
+        self.spring(l).into_iter().chain(dashpot).collect()
+    }
+
+    /// Whether floors may push each other at the start: rigid ones begin with the first step.
+    fn is_pushed(&self, p: usize) -> bool {
+        !self.scene.contacts[p].law.is_rigid()
+    }
+
+    /// What decides how far a contact is open: the gap, and where columns are hit that start out of place.
+    fn distance(&self, p: usize) -> Vec<Parameter> {
+        let position = self.contacts[p].is_displaced.then_some(Parameter::Position(p));
+        [Parameter::Gap(p)].into_iter().chain(position).collect()
+    }
+
+    fn contact_force(&self, p: usize) -> Vec<Parameter> {
+        if !self.is_pushed(p) {
+            return Vec::new();
         }
-        Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
-            let hits = |p: &usize| scene.contacts[*p].columns() == Some((side, storey + 1));
-            (0..scene.contacts.len()).filter(hits).any(|p| contact_force(scene, p, known))
+        let mut parameters = self.distance(p);
+        parameters.extend([Parameter::ContactStiffness(p), Parameter::Exponent(p)]);
+        if self.contacts[p].dashpot_acts {
+            parameters.extend([Parameter::Restitution(p), Parameter::Position(p)]);
+            parameters.extend(self.contacts[p].row.iter().map(|(side, place)| inertia(*side, *place)));
         }
-        // No floor force has acted yet, without which an acceleration is not known.
-        Output::Peak(PeakOf::Acceleration(..)) if scene.floor_forces => false,
-        Output::Peak(_) if matches!(known, Slot::Input(_)) => false,
-        Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => base_shear(scene, side, known),
-        Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
-            acceleration(scene, (side, Place::Floor(floor)), known)
+        parameters
+    }
+
+    /// At the start there has been no work; the energies are those of the buildings.
+    fn energy(&self, term: EnergyOutput) -> Vec<Parameter> {
+        let floors = |side: Side| 0..self.scene.building(side).mass.len();
+        let drifting = |side: Side| floors(side).filter(move |i| drifts(self.scene.building(side), *i));
+        match term {
+            EnergyOutput::Kinetic => {
+                let moves = |side: Side, i: usize| self.scene.building(side).initial_velocity[i] != 0.0;
+                let moving = |side: Side| floors(side).filter(move |i| moves(side, *i));
+                Side::BOTH.into_iter().flat_map(|side| moving(side).map(move |i| Parameter::Mass(side, i))).collect()
+            }
+            EnergyOutput::Strain => {
+                let storeys = |side: Side| drifting(side).flat_map(move |storey| of_storey(side, storey));
+                let springs = (0..self.scene.links.len()).flat_map(|l| self.spring(l));
+                Side::BOTH.into_iter().flat_map(storeys).chain(springs).collect()
+            }
+            EnergyOutput::Gravity => {
+                let weights = |side: Side| self.weights(side, &drifting(side).collect::<Vec<_>>());
+                Side::BOTH.into_iter().flat_map(weights).collect()
+            }
+            _ => Vec::new(),
         }
-        Output::Contact(p, C::Penetration) => is_of_distance(scene, p, known),
-        Output::Contact(p, C::Active | C::Impacts) => is_of_distance(scene, p, known) && is_pushed(scene, p),
-        Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),
-        // Nothing has been done yet, and an overlap at the start has no approach velocity.
-        Output::Contact(_, C::Impulse | C::DissipatedEnergy | C::ApproachVelocity) => false,
-        Output::Link(l, LinkOutput::Force) | Output::Peak(PeakOf::LinkForce(l)) => link_force(scene, l, known),
-        Output::Link(l, LinkOutput::Slip) => {
-            is_of_spring(scene, l, known) && known != Slot::Parameter(Parameter::LinkPostYieldRatio(l))
-        }
-        // Neither motion nor anything that begins with the first step.
-        Output::Link(
-            _,
-            LinkOutput::Displacement
-            | LinkOutput::Velocity
-            | LinkOutput::DissipatedEnergy
-            | LinkOutput::SlipTravel
-            | LinkOutput::Slipping,
-        )
-        | Output::Peak(PeakOf::LinkDisplacement(_)) => false,
-        Output::Foundation(side, FoundationOutput::Acceleration) => {
-            acceleration(scene, (side, Place::Foundation), known)
-        }
-        // It begins at rest.
-        Output::Foundation(..) => false,
-        Output::Impacts => (0..scene.contacts.len()).any(|p| is_of_distance(scene, p, known) && is_pushed(scene, p)),
-        Output::Energy(term) => energy(scene, term, known),
     }
 }
 
-/// Modes, and so damping that is given by modes.
-fn is_of_modes(side: Side, known: Slot) -> bool {
-    matches!(known, Slot::Parameter(Parameter::Mass(s, _) | Parameter::Stiffness(s, _)) if s == side)
+impl Contact {
+    fn of(scene: &Scene, pair: &ContactPair) -> Contact {
+        let displacement =
+            |share: Share| Building::at_start(&scene.building(share.side).initial_displacement, share.place);
+        Contact {
+            row: movements(scene, pair),
+            is_displaced: pair.row(scene).any(|share| displacement(share) != 0.0),
+            dashpot_acts: dashpot_acts(scene, pair),
+        }
+    }
+}
+
+fn without(mut parameters: Vec<Parameter>, one: Parameter) -> Vec<Parameter> {
+    parameters.retain(|parameter| *parameter != one);
+    parameters
 }
 
 /// What moves with a foundation, and the springs below it.
-fn is_of_foundation(side: Side, known: Slot) -> bool {
-    matches!(known, Slot::Parameter(Parameter::Foundation(s, key)) if s == side && key.is_of_frequencies())
+fn soil(side: Side) -> Vec<Parameter> {
+    FoundationKey::OF_FREQUENCIES.map(|key| Parameter::Foundation(side, key)).to_vec()
 }
 
-/// Whether a parameter changes where a storey rests by the others that rest with it: those of a building that leans on its soil,
-/// and all that links join.
-fn is_of_rest(scene: &Scene, side: Side, known: Slot) -> bool {
-    let building = scene.building(side);
-    let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
-    let (is_linked, leans) = (!scene.links.is_empty(), rocks && building.has_gravity());
-    let is_within = |s: Side| is_linked || leans && s == side;
-    let is_of_storeys = |s: Side| {
-        let building = scene.building(s);
-        (0..building.mass.len()).any(|i| drifts(building, i) && is_of_net_storey(scene, known, (s, i)))
-    };
-    let is_displaced = |s: Side| scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
-    let sides = Side::BOTH;
-    let is_of_springs = match known {
-        Slot::Parameter(Parameter::Foundation(s, FoundationKey::RockingStiffness)) => is_within(s),
-        Slot::Parameter(Parameter::Foundation(_, FoundationKey::SwayStiffness)) => is_linked,
-        Slot::Parameter(Parameter::LinkStiffness(_) | Parameter::SlipForce(_) | Parameter::LinkPostYieldRatio(_)) => {
-            true
-        }
-        _ => false,
-    };
-    sides.into_iter().any(|s| is_within(s) && is_of_storeys(s))
-        || is_of_springs && sides.into_iter().any(|s| is_within(s) && is_displaced(s))
+/// What changes the shear of a storey at a given drift: its stiffness, and its yield line.
+fn of_storey(side: Side, storey: usize) -> [Parameter; 3] {
+    [Parameter::Stiffness(side, storey), Parameter::YieldForce(side, storey), Parameter::PostYieldRatio(side, storey)]
 }
 
-/// What decides how far a contact is open: the gap, and where columns are hit that start out of place.
-fn is_of_distance(scene: &Scene, p: usize, known: Slot) -> bool {
-    let displacement =
-        |share: &Share| Building::at_start(&scene.building(share.side).initial_displacement, share.place);
-    let is_displaced = |share: Share| displacement(&share) != 0.0;
-    known == Slot::Parameter(Parameter::Gap(p))
-        || known == Slot::Parameter(Parameter::Position(p)) && scene.contacts[p].row(scene).any(is_displaced)
-}
-
-/// The storey whose shear a parameter changes at a given drift: by its stiffness, or by its yield line.
-fn storey_of(parameter: Parameter) -> Option<(Side, usize)> {
-    match parameter {
-        Parameter::Stiffness(side, storey)
-        | Parameter::YieldForce(side, storey)
-        | Parameter::PostYieldRatio(side, storey) => Some((side, storey)),
-        _ => None,
+/// What a displacement moves.
+fn inertia(side: Side, place: Place) -> Parameter {
+    match place {
+        Place::Floor(floor) => Parameter::Mass(side, floor),
+        Place::Foundation => Parameter::Foundation(side, FoundationKey::Mass),
+        Place::Rotation => Parameter::Foundation(side, FoundationKey::Inertia),
     }
 }
 
-fn is_of_storey(known: Slot, place: (Side, usize)) -> bool {
-    matches!(known, Slot::Parameter(parameter) if storey_of(parameter) == Some(place))
-}
-
-/// Whether a parameter is a mass whose weight pushes a storey on that leans.
-fn is_of_weight(scene: &Scene, (side, storey): (Side, usize), known: Slot) -> bool {
-    let Slot::Parameter(Parameter::Mass(s, floor)) = known else { return false };
-    let building = scene.building(side);
-    (s == side && floor >= storey) && building.weighs_by_mass() && building.leans(storey)
-}
-
-/// Whether a parameter changes the force by stiffness and gravity with which a storey resists a given drift.
-fn is_of_net_storey(scene: &Scene, known: Slot, place: (Side, usize)) -> bool {
-    is_of_storey(known, place) || is_of_weight(scene, place, known)
-}
-
-/// The sum of K u is the force of the lowest storey.
-fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
-    is_of_net_storey(scene, known, (side, 0)) && drifts(scene.building(side), 0)
-        || damping_force(scene, side, known, [0, 0])
-}
-
-/// Forces on a floor over its mass, or on a foundation that nothing has moved yet.
-fn acceleration(scene: &Scene, (side, place): (Side, Place), known: Slot) -> bool {
-    let building = scene.building(side);
-    let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, place)));
-    let is_there = |l: &usize| scene.links[*l].ends().any(|(s, end, _)| (s, end) == (side, place));
-    let links = || (0..scene.links.len()).filter(is_there);
-    let (storeys, mass) = match place {
-        Place::Floor(floor) => ([floor, floor + 1], Parameter::Mass(side, floor)),
-        Place::Foundation | Place::Rotation => ([0, 0], Parameter::Foundation(side, FoundationKey::Mass)),
-    };
-    match known {
-        Slot::Input(Input::Force(s, floor)) => (s, Place::Floor(floor)) == (side, place),
-        Slot::Parameter(parameter) if parameter == mass => {
-            let is_strained = match &building.stiffness {
-                Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
-                Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
-            };
-            let is_held = links().any(|l| closing(scene, l) != [0.0; 2]);
-            let is_pushed = contacts().any(|p| is_pushed(scene, p));
-            let is_forced = scene.floor_forces && place != Place::Foundation;
-            is_forced || is_strained || is_damped(building) || is_held || is_pushed
-        }
-        _ => {
-            let is_strain = |storey| is_of_net_storey(scene, known, (side, storey)) && drifts(building, storey);
-            storeys.into_iter().any(is_strain)
-                || damping_force(scene, side, known, storeys)
-                || contacts().any(|p| contact_force(scene, p, known))
-                || links().any(|l| link_force(scene, l, known))
-        }
-    }
-}
-
-/// Displacement and velocity of a link at the start.
-fn closing(scene: &Scene, l: usize) -> [f64; 2] {
-    let of = |motion: fn(&Building) -> &[f64]| {
-        let ends = scene.links[l].ends();
-        ends.map(|(side, place, weight)| weight * Building::at_start(motion(scene.building(side)), place)).sum()
-    };
-    [of(|building| &building.initial_displacement), of(|building| &building.initial_velocity)]
-}
-
-/// Whether a parameter changes the force of the spring of a link at the start.
-fn is_of_spring(scene: &Scene, l: usize, known: Slot) -> bool {
-    let parameters = [Parameter::LinkStiffness(l), Parameter::SlipForce(l), Parameter::LinkPostYieldRatio(l)];
-    parameters.into_iter().any(|parameter| known == Slot::Parameter(parameter)) && closing(scene, l)[0] != 0.0
-}
-
-fn link_force(scene: &Scene, l: usize, known: Slot) -> bool {
-    let is_of_dashpot = known == Slot::Parameter(Parameter::LinkDashpot(l)) && closing(scene, l)[1] != 0.0;
-    is_of_spring(scene, l, known) || is_of_dashpot
-}
-
-/// C v of some floors of a building, which storeys with dashpots of their own give.
-fn damping_force(scene: &Scene, side: Side, known: Slot, storeys: [usize; 2]) -> bool {
-    let building = scene.building(side);
-    if let Slot::Parameter(Parameter::Dashpot(s, storey)) = known {
-        return s == side && storeys.contains(&storey) && differ(&building.initial_velocity, storey);
-    }
-    let by_modes = !matches!(building.damping, Damping::Matrix(_) | Damping::Dashpots(_));
-    let is_number = known == Slot::Parameter(Parameter::DampingRatio(side));
-    is_damped(building) && (is_number || by_modes && is_of_modes(side, known))
+/// What changes the force of the spring of a link that has a displacement.
+fn of_spring(l: usize) -> [Parameter; 3] {
+    [Parameter::LinkStiffness(l), Parameter::SlipForce(l), Parameter::LinkPostYieldRatio(l)]
 }
 
 /// Whether there may be a C v at the start.
@@ -268,61 +379,17 @@ fn differ(motion: &[f64], storey: usize) -> bool {
     motion.get(storey).is_some_and(|above| Some(*above) != below)
 }
 
-/// Whether floors may push each other at the start: rigid ones begin with the first step.
-fn is_pushed(scene: &Scene, p: usize) -> bool {
-    !scene.contacts[p].law.is_rigid()
-}
-
-fn contact_force(scene: &Scene, p: usize, known: Slot) -> bool {
-    is_pushed(scene, p)
-        && match known {
-            Slot::Parameter(Parameter::Gap(q) | Parameter::ContactStiffness(q) | Parameter::Exponent(q)) => q == p,
-            Slot::Parameter(Parameter::Position(q)) => {
-                q == p && (is_of_distance(scene, p, known) || dashpot_acts(scene, p))
-            }
-            Slot::Parameter(Parameter::Restitution(q)) => q == p && dashpot_acts(scene, p),
-            Slot::Parameter(Parameter::Mass(side, floor)) => {
-                floors(scene, p).contains(&(side, Place::Floor(floor))) && dashpot_acts(scene, p)
-            }
-            Slot::Parameter(Parameter::Foundation(side, key)) => {
-                let place = if key == FoundationKey::Inertia { Place::Rotation } else { Place::Foundation };
-                let is_inertia = matches!(key, FoundationKey::Mass | FoundationKey::Inertia);
-                is_inertia && floors(scene, p).contains(&(side, place)) && dashpot_acts(scene, p)
-            }
-            _ => false,
-        }
-}
-
 /// m: an overlap in which the spring outweighs the dashpot.
 const DEEP: f64 = 1e6;
 
 /// Whether an overlap at the start is damped, at the rate that the scene gives it and with some restitution: the dashpot
 /// depends on the restitution and on the masses of both floors.
-fn dashpot_acts(scene: &Scene, p: usize) -> bool {
+fn dashpot_acts(scene: &Scene, pair: &ContactPair) -> bool {
     let velocity =
         |share: Share| share.weight * Building::at_start(&scene.building(share.side).initial_velocity, share.place);
-    let rate: f64 = scene.contacts[p].row(scene).map(velocity).sum();
-    let mut law = scene.contacts[p].law;
+    let rate: f64 = pair.row(scene).map(velocity).sum();
+    let mut law = pair.law;
     law.restitution = 0.5;
     let force = EpisodeForce::new(&law, 1.0, None);
     rate != 0.0 && force.branch(force.is_engaged(DEEP, rate)).is_damped()
-}
-
-/// At the start there has been no work; the energies are those of the buildings.
-fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
-    match (term, known) {
-        (EnergyOutput::Kinetic, Slot::Parameter(Parameter::Mass(side, floor))) => {
-            scene.building(side).initial_velocity[floor] != 0.0
-        }
-        (EnergyOutput::Strain, Slot::Parameter(parameter)) => {
-            let storey = storey_of(parameter);
-            storey.is_some_and(|(side, storey)| drifts(scene.building(side), storey))
-                || (0..scene.links.len()).any(|l| is_of_spring(scene, l, known))
-        }
-        (EnergyOutput::Gravity, Slot::Parameter(Parameter::Mass(side, floor))) => {
-            let leans = |storey| is_of_weight(scene, (side, storey), known) && drifts(scene.building(side), storey);
-            (0..=floor).any(leans)
-        }
-        _ => false,
-    }
 }

@@ -39,9 +39,9 @@ mod unit;
 mod values;
 
 pub use changes::Changes;
-pub use dependencies::{Dependence, at_communication_points};
+pub use dependencies::{Dependence, Dependencies};
 pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
-pub use initial_dependencies::at_start;
+pub use initial_dependencies::InitialDependencies;
 pub use slot::{Calculated, Causality, Parameter, Slot};
 pub use table::{Row, Table, Type, Variability};
 pub use unit::{Unit, UnitInfo};

@@ -4,7 +4,7 @@ use crate::engine::{Input, Output, Side};
 use crate::scene::FoundationKey;
 
 /// What a variable stands for. Floors, storeys, contacts and links are counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Slot {
     /// Set by the master at any time.
     Input(Input),
@@ -17,7 +17,7 @@ pub enum Slot {
 }
 
 /// A calculated parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Calculated {
     /// Hz: natural frequency of a building alone.
@@ -33,7 +33,7 @@ pub enum Calculated {
 }
 
 /// A parameter: the master sets it before the end of initialisation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Parameter {
     /// Factor on the record.

@@ -134,3 +134,28 @@ fn derivatives_with_respect_to_time() {
         assert_eq!(rates([order; 3]).0, DISCARD);
     }
 }
+
+#[test]
+fn the_time_is_named_as_what_has_no_derivative() {
+    const NONE: &str = "there are no derivatives of or with respect to the independent variable";
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(false, false);
+    instance.initialize();
+    let (acceleration, ground, time) = (fmu.vr("left.acceleration[1]"), fmu.vr("ground.acceleration"), fmu.vr("time"));
+    let told = || instance.log().into_iter().map(|line| line.message).collect::<Vec<_>>();
+    for (name, function) in [
+        ("fmi3GetDirectionalDerivative", fmi3GetDirectionalDerivative as Partial),
+        ("fmi3GetAdjointDerivative", fmi3GetAdjointDerivative),
+    ] {
+        partial(&instance, function, &[time], &[ground], &[1.0], 1);
+        assert_eq!(told(), [format!("{name}: unknown time: {NONE}; expected an output of type Float64")]);
+        partial(&instance, function, &[acceleration], &[time], &[1.0], 1);
+        assert_eq!(told(), [format!("{name}: known time: {NONE}; expected an input of type Float64")]);
+    }
+    let mut value = f64::NAN;
+    // SAFETY: one reference, order and value.
+    let status = unsafe { fmi3GetOutputDerivatives(instance.component, &time, 1, &1, &mut value, 1) };
+    assert_eq!((status, value.is_nan()), (DISCARD, true));
+    let expected = "fmi3GetOutputDerivatives: time: the independent variable has no derivatives; expected an output";
+    assert_eq!(told(), [expected]);
+}

@@ -6,7 +6,7 @@ use crate::structure::Side;
 use serde::{Deserialize, Serialize};
 
 /// An input: a master sets it at any time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Input {
     /// Ground acceleration, m/s2; acts where the scene has no record.

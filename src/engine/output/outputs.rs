@@ -9,7 +9,7 @@ use std::ops::{Index, IndexMut};
 pub type Rates = [f64; 2];
 
 /// A quantity that a run shows. Floors, storeys and contacts are counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Output {
     /// Ground acceleration, m/s2.
@@ -47,7 +47,7 @@ pub enum Output {
 }
 
 /// A quantity of a storey that can yield.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum YieldingOf {
     /// Storey shear, N, without damping.
@@ -68,7 +68,7 @@ pub enum YieldingOf {
 }
 
 /// A quantity of a link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum LinkOutput {
     /// Force, N, positive where it pushes the ends apart.
@@ -88,7 +88,7 @@ pub enum LinkOutput {
 }
 
 /// A quantity of a foundation on soil.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FoundationOutput {
     /// Displacement relative to the ground far away, m.
@@ -123,7 +123,7 @@ macro_rules! quantities {
         $($(#[$about:meta])* $Quantity:ident $name:ident: $ty:ty,)*
     ) => {
         $(#[$of_enum])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum $Of {
             $($(#[$about])* $Quantity,)*

@@ -17,7 +17,7 @@ use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Struc
 use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PeakOf {
     /// Displacement of a floor relative to the ground, m.

@@ -4,7 +4,7 @@ use crate::scene::{Building, ContactPair, Scene, Stiffness};
 use crate::structure::Side;
 
 /// A quantity of one storey. Each is a factor times another output, or the largest of some.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StoreyPeak {
     /// Peak drift over the storey's height.

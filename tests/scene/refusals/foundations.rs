@@ -79,8 +79,8 @@ fn values_and_keys() {
         "",
         "mass = 3e4",
         &[
-            "left.foundation = [left.foundation]: expected sway, rocking or both: the springs and dashpots of the soil, without \
-           which it is a fixed base",
+            "left.foundation: expected sway, rocking or both: the springs and dashpots of the soil, without which it is a \
+             fixed base",
         ],
     );
 }

@@ -39,10 +39,6 @@ fn the_keys_of_gravity() {
             "left.gravity_load = [1, 2]: expected p_delta as well, the storeys that gravity pushes on as they lean"
                 .to_owned(),
         ),
-        (
-            "collapse_drift_ratio = 0.5",
-            "left.collapse_drift_ratio = 0.5: expected p_delta as well: without gravity no storey collapses".to_owned(),
-        ),
     ] {
         assert_eq!(said(keys), [expected], "{keys}");
     }

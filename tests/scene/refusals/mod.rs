@@ -7,6 +7,7 @@ mod gravity;
 mod links;
 mod meant;
 mod meetings;
+mod together;
 
 use crate::{SCENE, SHORT, edited, messages};
 use pounding::scene::{Damping, Face, Scene, Side, Stiffness};
