@@ -146,6 +146,26 @@ fn what_turns_just_after_an_entry_counts() {
     }
 }
 
+/// A contact so soft that its force hardly moves the floors, over a long window that resolves the motion: a power of the
+/// penetration has more of a peak than the nodes of that window tell.
+#[test]
+fn the_peak_of_a_soft_force_is_found() {
+    for stiffness in [4e2, 4e4, 4e6] {
+        for law in [
+            "hertz_damped\"\nrestitution = 0.3\ndamping_formula = \"exact\"\nexponent = 3.0",
+            "jankowski\"\nrestitution = 0.3",
+        ] {
+            let text = format!(
+                "name = \"Soft\"\n[left]\nmass = [12e3]\nstiffness = [6.4e6]\ninitial_velocity = [-0.014]\n\
+                 damping = {{ ratio = 0.0 }}\n[right]\nmass = [94e3]\nstiffness = [210e6]\ninitial_velocity = [-0.168]\n\
+                 damping = {{ ratio = 0.0 }}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.001\n\
+                 law = \"{law}\nstiffness = {stiffness:?}\n"
+            );
+            check(&text, Some(&record(1.0, &[0.0, 0.0])), 0.6);
+        }
+    }
+}
+
 /// A storey that is perfectly plastic and not damped gives the floor above it no more than its yield force over its mass.
 #[test]
 fn a_plastic_roof_is_accelerated_by_its_yield_force() {

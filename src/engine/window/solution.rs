@@ -16,6 +16,9 @@ const NEARLY: f64 = 0.97;
 /// Largest error of a polynomial through the nodes, relative to a peak.
 const INTERPOLATED: f64 = 1e-6;
 
+/// The same with which it tells the place of a peak, so that the value there has all digits.
+const SHARP: f64 = 1e-7;
+
 /// Integrals of (time left)^k times the force of each pair of a window, k = 0, 1, ..., N s^(k+1).
 pub type Moments = [[f64; POWERS]; MOST_PAIRS];
 
@@ -255,6 +258,11 @@ impl Contact {
             // Interpolated forces have fewer digits, so that the maximum found between nodes may lie below the force at
             // the end.
             let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
+            let force_of = |(d, v): (f64, f64)| law.value(d, v);
+            let (x, peak) = match law.is_damped() {
+                true => part.sharpened(&solution.force[place], (x, peak), |x| force_of(read(x))),
+                false => (x, peak),
+            };
             let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
             passage.strongest = Some((peak, start + solution.length * solution.map.at(x).0));
         }
@@ -296,6 +304,23 @@ impl FollowedPart {
             top = found.filter(|found| found.1 > best).unwrap_or(top);
         }
         (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
+    }
+
+    /// (x, value) of the maximum of a quantity near where the polynomial through its `values` at the nodes has one: searched by
+    /// true values where the two differ between the nodes. A window resolves the motion; a force that hardly moves the floors
+    /// may need more nodes.
+    fn sharpened(&self, values: &AtNodes, (x, value): (f64, f64), true_value: impl Fn(f64) -> f64) -> (f64, f64) {
+        let nodes = &self.nodes.x[..self.nodes.count];
+        let next = nodes.iter().position(|node| *node > x).unwrap_or(nodes.len());
+        let low = next.checked_sub(2).map_or(0.0, |i| nodes[i]);
+        let high = nodes.get(next + 1).copied().unwrap_or(1.0).min(self.last);
+        let interpolant = self.nodes.interpolant(values);
+        let is_off = |x: f64| (interpolant.knot(x).value - true_value(x)).abs() > SHARP * value.abs();
+        if x >= self.last || !(is_off(0.5 * (low + x)) || is_off(0.5 * (x + high))) {
+            return (x, value);
+        }
+        let (at, peak) = roots::maximum_by_values([low, high], true_value);
+        if peak > value { (at, peak) } else { (x, value) }
     }
 }
 
