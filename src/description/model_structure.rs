@@ -59,7 +59,8 @@ impl Unknowns<'_> {
         })
     }
 
-    /// The knowns that the table has, each once, in the order of the table.
+    /// Writes an element for each unknown, with the knowns on which it depends: those that the table has, each once and in its
+    /// order.
     fn write(
         &self,
         xml: &mut Xml,

@@ -84,8 +84,8 @@ impl Record {
     /// # Errors
     /// Everything that is wrong, each with its line (counted from 1), the value found and what was expected: a file in no
     /// known format, with its first lines; a header that does not fit (nothing behind it is looked at then), a unit that is
-    /// missing or none of acceleration, something that is not a finite number, times that do not increase or are beyond 1e12 s, fewer than two
-    /// samples, a number of samples other than the one announced, a channel that is not there.
+    /// missing or none of acceleration, something that is not a finite number, times that do not increase or are beyond
+    /// 1e12 s, fewer than two samples, a number of samples other than the one announced, a channel that is not there.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
         let RecordFile { name, channel, .. } = RecordFile::named(name, Vec::new());
         Ok(Accelerogram::parse(&name, channel, bytes)?.record)

@@ -99,11 +99,7 @@ impl Checker {
     }
 
     fn yielding(&mut self, path: &str, Yielding { force, ratio }: &Yielding, floors: usize) {
-        let key = format!("{path}.yield_force");
-        self.length(&key, force, rule::YIELD_FORCE, floors, "storey");
-        for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force != f64::INFINITY) {
-            self.number(format_args!("{key}[{}]", i + 1), force, rule::YIELD_FORCE);
-        }
+        self.list(format_args!("{path}.yield_force"), force, rule::YIELD_FORCE, floors, "storey");
         if ratio.len() != force.len() || force.len() == floors {
             self.list(format_args!("{path}.post_yield_ratio"), ratio, rule::POST_YIELD_RATIO, floors, "storey");
         }

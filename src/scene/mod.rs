@@ -63,7 +63,7 @@
 
 mod check;
 mod check_foundation;
-mod check_rigid;
+mod check_springs;
 mod checker;
 mod contact_pair;
 mod contact_row;

@@ -207,7 +207,7 @@ fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, storeys: usize, un
     };
     if matches!(stiffness, Stiffness::Matrix(_)) {
         force.refuse("a shear building, with stiffness instead of stiffness_matrix: only storeys yield");
-        force.look_at_list(rule::YIELD_FORCE.or_infinite(), units, storeys, "storey");
+        force.look_at_list(rule::YIELD_FORCE, units, storeys, "storey");
         ratio.inspect(|ratio| look_at_ratio(ratio, storeys));
         return None;
     }

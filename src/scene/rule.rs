@@ -12,6 +12,7 @@ pub struct Rule {
     in_kn_t: Option<&'static str>,
     /// Of the SI number.
     holds: fn(f64) -> bool,
+    /// Whether infinity is a number like others.
     takes_infinity: bool,
 }
 
@@ -27,7 +28,7 @@ impl Rule {
     }
 
     /// The same of a number that may be infinite as well.
-    pub(super) const fn or_infinite(self) -> Rule {
+    const fn or_infinite(self) -> Rule {
         Rule { takes_infinity: true, ..self }
     }
 
@@ -108,7 +109,8 @@ pub const YIELD_FORCE: Rule = Rule::of_force(
     "a force > 0 N, or inf for a storey that stays elastic",
     "a force > 0 kN, or inf for a storey that stays elastic",
     |force| force > 0.0,
-);
+)
+.or_infinite();
 /// `post_yield_ratio` of a storey or a link.
 pub const POST_YIELD_RATIO: Rule = Rule::of("0 <= r < 1", |ratio| (0.0..1.0).contains(&ratio));
 /// `gravity_load` of a floor, N.

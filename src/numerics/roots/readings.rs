@@ -30,7 +30,7 @@ pub(crate) fn highest_by_readings(
     let mut peak = larger(known, ends[0].value.abs());
     for sign in [1.0, -1.0] {
         let read = |x: f64| read(x).times(sign);
-        let mut search = Search { peak, until, read };
+        let mut search = HighestSearch { peak, until, read };
         search.raise(ends.map(|end| end.times(sign)), MOST_HALVINGS);
         peak = search.peak;
     }
@@ -38,13 +38,13 @@ pub(crate) fn highest_by_readings(
 }
 
 /// A search for the largest value.
-struct Search<R> {
+struct HighestSearch<R> {
     peak: f64,
     until: f64,
     read: R,
 }
 
-impl<R: FnMut(f64) -> Knot> Search<R> {
+impl<R: FnMut(f64) -> Knot> HighestSearch<R> {
     /// Raises the peak over a piece of which the middle has been read.
     fn raise(&mut self, [a, middle, b]: [Knot; 3], halvings: u32) {
         let w = b.x - a.x;

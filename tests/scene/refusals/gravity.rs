@@ -1,16 +1,11 @@
 //! Gravity on storeys that lean.
 
+use super::{DAMPING, STIFFNESS, said};
 use crate::{edited, messages};
 use pounding::scene::Scene;
 
-const DAMPING: &str = "damping = { ratio = 0.01 }";
-const STIFFNESS: &str = "stiffness = [2910.0, 2920.0]";
 /// Of a scene whose floors weigh 29.4 and 39.2 N.
 const FRAME: &str = "height = [0.5, 0.5]\np_delta = true\n";
-
-fn said(keys: &str) -> Vec<String> {
-    messages(&edited(DAMPING, &format!("{DAMPING}\n{keys}")))
-}
 
 #[test]
 fn the_keys_of_gravity() {

@@ -12,6 +12,15 @@ mod together;
 use crate::{SCENE, SHORT, edited, messages};
 use pounding::scene::{Damping, Face, Scene, Side, Stiffness};
 
+/// Of the left building.
+const DAMPING: &str = "damping = { ratio = 0.01 }";
+const STIFFNESS: &str = "stiffness = [2910.0, 2920.0]";
+
+/// What is said of more keys of the left building.
+fn said(keys: &str) -> Vec<String> {
+    messages(&edited(DAMPING, &format!("{DAMPING}\n{keys}")))
+}
+
 /// One change of the scene and all that is then said about it.
 type Refusal = (&'static str, &'static str, &'static [&'static str]);
 

@@ -1,19 +1,14 @@
 //! A key that lacks another one, or that excludes it, and what is wrong with its value are told together.
 
+use super::{STIFFNESS, said};
 use crate::{SHORT, edited, messages};
 
-const DAMPING: &str = "damping = { ratio = 0.01 }";
-const STIFFNESS: &str = "stiffness = [2910.0, 2920.0]";
 const MATRIX: &str = "stiffness_matrix = [[3, -1], [-1, 2]]";
 const COLLAPSE: &str = "left.collapse_drift_ratio = -0.5: expected";
 const NO_LOAD: &str = "expected p_delta as well, the storeys that gravity pushes on as they lean";
 const NO_FORCE: &str = "expected yield_force as well, the storey shears at first yield";
 const NO_MATRIX: &str = "expected a shear building, with stiffness instead of stiffness_matrix";
 const FORCE: &str = "expected a force > 0 N, or inf for a storey that stays elastic";
-
-fn said(keys: &str) -> Vec<String> {
-    messages(&edited(DAMPING, &format!("{DAMPING}\n{keys}")))
-}
 
 #[test]
 fn keys_of_gravity() {

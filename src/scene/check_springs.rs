@@ -1,7 +1,7 @@
 //! Springs of links and soil beside which nothing would be left of the storeys.
 //!
-//! Entries of a body's stiffness matrix are sums of its springs. One that is some 1e14 times as stiff as a storey leaves too
-//! few digits of that for its motion, and from 1e16 times on none; up to 1e13 times frequencies are exact to rounding.
+//! Entries of a body's stiffness matrix are sums of its springs: one that is 1e16 times as stiff as a storey leaves no digit
+//! of that. At the limit here frequencies are exact to rounding (`tests/soil/closed_forms.rs`).
 
 use super::checker::Checker;
 use super::data::{Building, Scene, Stiffness};
