@@ -11,6 +11,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::peaks::step_log::StepLog;
 use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
@@ -139,8 +140,8 @@ impl State {
     }
 }
 
-/// Scratch memory of all kinds of steps; its content means nothing between calls, but for the logged flights and
-/// the noted instants.
+/// Scratch memory of all kinds of steps; its content means nothing between calls, but for what is logged and the
+/// noted instants.
 #[derive(Clone, Debug)]
 pub(super) struct Workspace {
     pub buffers: Buffers,
@@ -149,6 +150,8 @@ pub(super) struct Workspace {
     pub peaks: PeakRoom,
     /// The flights over which the peaks of the base have not been raised yet.
     pub log: FlightLog,
+    /// The windows over which they have not been raised yet.
+    pub steps: StepLog,
     /// The flights whose work the energy account of the base does not have yet.
     pub waiting: FlightLog,
     /// The instants at which storeys have begun to yield or turned, s, where somebody asks for them.
@@ -166,6 +169,11 @@ impl Workspace {
     /// The part of it that the peaks use.
     pub(super) fn for_peaks(&mut self) -> PeakWork<'_> {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
+    }
+
+    /// The log of steps in contact, and the part of it that the peaks use.
+    pub(in crate::engine) fn for_steps(&mut self) -> (&mut StepLog, PeakWork<'_>) {
+        (&mut self.steps, PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks })
     }
 
     /// The log of flights, and the part of it that the peaks use.
@@ -188,6 +196,7 @@ impl Workspace {
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: model.peaks().peak_room(log.capacity()),
             log,
+            steps: StepLog::default(),
             waiting: model.waiting(),
             switches: None,
         }
@@ -221,8 +230,15 @@ impl Model {
         self.system.open_account(&mut state.base);
         // What is shown at the start counts, before a contact that begins at that very instant changes it.
         let mut peaks = std::mem::take(&mut state.base.peaks);
-        self.peaks().raise_to_motion(&state.base, &mut peaks);
+        match state.base.is_forced() && !self.watched.rows.are_none() {
+            true => self.peaks().raise_to_contact(&state.base, &mut peaks, &mut state.work.for_peaks()),
+            false => self.peaks().raise_to_motion(&state.base, &mut peaks),
+        }
         state.base.peaks = peaks;
+        // Steps that wait are searched without the forces of a master.
+        if self.windows.is_some() && !self.watched.rows.are_none() && !self.system.floor_forces {
+            state.work.steps = StepLog::new(&self.system, &state.base);
+        }
         state
     }
 }

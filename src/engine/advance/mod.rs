@@ -199,7 +199,7 @@ impl Model {
         // all else is still that of the start.
         self.follow_and_raise(base, step, inputs, end, work);
         // The time map of a series reads the age at the start: it goes on only when the series has been followed.
-        let Step { planned, .. } = step;
+        let Step { planned, .. } = &mut *step;
         base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|c| c.age += planned.length);
         // The motion of the base is that of the end, still about the position of rest of the start; `planned` has the
         // old one, which nothing reads any more.
@@ -210,7 +210,7 @@ impl Model {
         // Plastic drifts move the position of rest, and with it `q` and the gaps at rest: before anything is measured
         // from them.
         self.move_storeys(base, step);
-        let Step { kind, planned, .. } = step;
+        let Step { planned, .. } = &mut *step;
         // What planned the length of this step says where the next one begins to look; an entry, below, forgets it.
         base.last_length = planned.next_length.unwrap_or(base.last_length);
         // Penetrations of open contacts are measured on `q` with the new gaps; of closed ones the step knows them
@@ -235,8 +235,9 @@ impl Model {
         // Rates are those of the floors from now on, of which the step has other last digits, and impulses elsewhere
         // change them at once: the forces that are read from here on count.
         base.raise_peak_forces();
-        // The base has moved: the step that was planned from the old one means nothing.
-        *kind = StepKind::NotPlanned;
+        // The base has moved: the step that was planned from the old one means nothing, but to peaks that wait for it.
+        work.steps.keep(step);
+        step.kind = StepKind::NotPlanned;
     }
 
     /// Moves the storeys, and with them the position of rest, to the end of the planned step, whose motion is that of the
@@ -334,7 +335,7 @@ impl Model {
         }
         step.follow(&self.system, &mut base.contacts, start);
         if is_watched && !is_flight {
-            peaks.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
+            peaks.raise_over_step(base, step, inputs, end, work.for_steps());
         }
     }
 }

@@ -108,6 +108,18 @@ impl Base {
         self.dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
     }
 
+    /// Copies what the motion in a step and its forces follow from.
+    pub(super) fn copy_start(&mut self, of: &Base) {
+        self.q.copy_from_slice(&of.q);
+        self.v.copy_from_slice(&of.v);
+        (self.segment, self.elapsed, self.coordinates) = (of.segment, of.elapsed, of.coordinates);
+        self.contacts.copy_from_slice(&of.contacts);
+        self.storeys.copy_from_slice(&of.storeys);
+        self.rest.floors.copy_from_slice(&of.rest.floors);
+        self.rest.gaps.copy_from_slice(&of.rest.gaps);
+        self.rest.watched.copy_from_slice(&of.rest.watched);
+    }
+
     /// Energy dissipated by all contacts so far, J.
     pub(super) fn dissipated_by_contacts(&self) -> f64 {
         self.contacts.iter().map(Contact::dissipated_energy).sum()

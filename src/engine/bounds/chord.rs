@@ -6,27 +6,26 @@
 
 use crate::numerics::polynomial::{cut, larger};
 
-/// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes by how much they may be exceeded
+/// Raises peaks to the magnitudes of some motions at both ends of `h` seconds, and writes upper bounds on the magnitudes
 /// in between: from the motions and their rates at both ends, with bounds on their second derivatives. Returns whether
-/// none can be; a NaN can.
+/// no bound is above its peak; a NaN is.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn exceed_by_motion(
+pub fn bound_by_motion(
     [start, end, rate, end_rate, fastest]: [&[f64]; 5],
     h: f64,
     peaks: &mut [f64],
-    excess: &mut [f64],
+    upper: &mut [f64],
 ) -> bool {
     let (sag, count) = (0.125 * h * h, peaks.len());
     // Equal lengths: no bounds checks below.
     let [start, end, rate, end_rate, fastest] = cut([start, end, rate, end_rate, fastest], count);
-    let (excess, mut are_below) = (&mut excess[..count], true);
+    let (upper, mut are_below) = (&mut upper[..count], true);
     for i in 0..count {
         let ends = larger(start[i].abs(), end[i].abs());
         peaks[i] = larger(peaks[i], ends);
         let goes_on = (rate[i] + end_rate[i]).abs() > h * fastest[i];
-        let over = ends + sag * fastest[i] - peaks[i];
-        excess[i] = if goes_on { 0.0 } else { over };
-        are_below &= excess[i] <= 0.0;
+        upper[i] = if goes_on { ends } else { ends + sag * fastest[i] };
+        are_below &= upper[i] <= peaks[i];
     }
     are_below
 }
@@ -34,45 +33,44 @@ pub fn exceed_by_motion(
 /// The same for absolute accelerations, from those without contact forces and those by them at both ends, the least and
 /// largest accelerations by contact forces, and bounds on the deviation of the rest from its chord.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn exceed_by_push(
+pub fn bound_by_push(
     [start, end, first, last]: [&[f64]; 4],
     [least, most, strays]: [&[f64]; 3],
     peaks: &mut [f64],
-    excess: &mut [f64],
+    upper: &mut [f64],
 ) -> bool {
     let count = peaks.len();
     let [start, end, first, last] = cut([start, end, first, last], count);
     let [least, most, strays] = cut([least, most, strays], count);
-    let (excess, mut are_below) = (&mut excess[..count], true);
+    let (upper, mut are_below) = (&mut upper[..count], true);
     for i in 0..count {
         peaks[i] = larger(peaks[i], larger((start[i] + first[i]).abs(), (end[i] + last[i]).abs()));
         let top = larger(start[i], end[i]) + most[i];
         let bottom = larger(-start[i], -end[i]) - least[i];
-        excess[i] = larger(top, bottom) + strays[i] - peaks[i];
-        are_below &= excess[i] <= 0.0;
+        upper[i] = larger(top, bottom) + strays[i];
+        are_below &= upper[i] <= peaks[i];
     }
     are_below
 }
 
 /// The same where the deviation of the whole from its chord is bounded.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn exceed_by_deviation(
+pub fn bound_by_deviation(
     [start, end, first, last]: [&[f64]; 4],
     strays: &[f64],
     peaks: &mut [f64],
-    excess: &mut [f64],
+    upper: &mut [f64],
 ) -> bool {
     let count = peaks.len();
     let [start, end, first, last, strays] = cut([start, end, first, last, strays], count);
-    let (excess, mut are_below) = (&mut excess[..count], true);
+    let (upper, mut are_below) = (&mut upper[..count], true);
     for i in 0..count {
         let ends = [start[i] + first[i], end[i] + last[i]];
         let most = larger(ends[0].abs(), ends[1].abs());
         peaks[i] = larger(peaks[i], most);
         let goes_on = (ends[1] - ends[0]).abs() > 4.0 * strays[i];
-        let over = most + strays[i] - peaks[i];
-        excess[i] = if goes_on { 0.0 } else { over };
-        are_below &= excess[i] <= 0.0;
+        upper[i] = if goes_on { most } else { most + strays[i] };
+        are_below &= upper[i] <= peaks[i];
     }
     are_below
 }

@@ -95,10 +95,12 @@ impl FloorMotions {
 pub(crate) struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
-    /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity.
+    /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity, and
+    /// over the first so many steps in contact.
     pub folded: Peaks,
     pub identity: u64,
     pub entries: usize,
+    pub steps: u64,
     /// The flights that are expected next, where peaks are read often.
     pub ahead: FlightsAhead,
     /// The displacements relative to the position of rest at the start of the step.

@@ -68,10 +68,13 @@ impl Model {
         let (State { base, .. }, log) = (state, &state.work.log);
         if known.identity != log.identity {
             known.folded.clone_from(&base.peaks);
-            (known.identity, known.entries) = (log.identity, 0);
+            (known.identity, known.entries, known.steps) = (log.identity, 0, 0);
         }
-        // Steps in contact raise the peaks of the base at once.
+        // Steps in contact that do not wait have raised the peaks of the base.
         known.folded.raise_all(&base.peaks);
+        let steps = &state.work.steps;
+        self.peaks().raise_over_log((steps, known.steps), &state.inputs, &mut known.folded, work);
+        known.steps = steps.logged();
         let flights = log.flights_from(known.entries, (&base.q, &base.v));
         let (rest, count) = (&base.rest.watched, flights.loads.len());
         let PointPeaks { folded, peaks, ahead, .. } = known;

@@ -1,5 +1,5 @@
 //! Peaks over a step in contact: only what both ends, the length and the largest contact forces cannot rule out is
-//! searched.
+//! searched, and mostly later ([`super::step_log`]).
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -9,7 +9,8 @@ use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
-use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
+use crate::engine::peaks::room::{FloorRoom, OpenQuantity, PeakRoom, PeakWork};
+use crate::engine::peaks::step_log::StepLog;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
@@ -35,16 +36,17 @@ impl PeakFinder<'_> {
         }
     }
 
-    /// Raises the peaks of the base over the planned step, after the contacts have been moved to its end.
+    /// Raises the peaks of the base over the planned step, after the contacts have been moved to its end; if they may be
+    /// exceeded within it, the step is logged, to be searched later.
     pub(in crate::engine) fn raise_over_step(
         &self,
         base: &mut Base,
         step: &Step,
         inputs: &Inputs,
         end: f64,
-        work: &mut PeakWork,
+        (log, mut work): (&mut StepLog, PeakWork),
     ) {
-        let mut peaks = std::mem::take(&mut base.peaks);
+        let (mut peaks, work) = (std::mem::take(&mut base.peaks), &mut work);
         for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
             *force = contact.present_force();
         }
@@ -54,9 +56,15 @@ impl PeakFinder<'_> {
             (step.planned.length, step.end_powers()),
             &mut work.peaks.strongest,
         );
-        let part =
-            ContactStep { base, step, inputs, length: step.planned.length, end: (&step.planned.q, &step.planned.v) };
-        self.check_contact_step(&part, &mut peaks, work);
+        let starts = std::mem::take(&mut work.peaks.starts);
+        let part = ContactStep::whole((base, step, inputs), &starts);
+        self.find_open(&part, &mut peaks, work);
+        match work.peaks.open.is_empty() {
+            true => {}
+            false if log.takes(step) => self.log_step(&part, &mut peaks, (log, work)),
+            false => self.search_noted(&part, &mut peaks, work),
+        }
+        work.peaks.starts = starts;
         // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, floor forces
         // and another position of rest may.
         if self.system.rigid.pairs.is_empty() && !self.system.floor_forces && !base.is_yielding() {
@@ -81,8 +89,11 @@ impl PeakFinder<'_> {
         }
         step.bound_forces(self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
-        let part = ContactStep { base, step, inputs, length: elapsed, end };
-        self.check_contact_step(&part, peaks, work);
+        let starts = std::mem::take(&mut work.peaks.starts);
+        let part = ContactStep { base, step, inputs, starts: &starts, length: elapsed, end };
+        self.find_open(&part, peaks, work);
+        self.search_noted(&part, peaks, work);
+        work.peaks.starts = starts;
         work.peaks.floors.forget();
     }
 
@@ -114,8 +125,9 @@ impl PeakFinder<'_> {
         self.raise_to_links(base, peaks, work);
     }
 
-    fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
-        work.peaks.readings.restart();
+    /// Raises peaks to both ends of a part of a step, and notes what may exceed its peak in between.
+    fn find_open(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+        work.peaks.open.clear();
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
         // The bounds of `floors.rs` cost less than those of a series, and often suffice.
@@ -123,7 +135,7 @@ impl PeakFinder<'_> {
             self.bound_body(b, part, &mut work.peaks.floors);
         }
         let is_open =
-            Side::BOTH.map(|side| self.find_excess(side, (part.length, false), peaks, &mut work.peaks.floors));
+            Side::BOTH.map(|side| self.bound_building(side, (part.length, false), peaks, &mut work.peaks.floors));
         let are_links_open = self.links_may_exceed(part, peaks, work);
         if is_open == [false; 2] && !are_links_open {
             return;
@@ -135,12 +147,12 @@ impl PeakFinder<'_> {
         }
         for side in Side::BOTH.into_iter().filter(|side| is_open[*side as usize]) {
             if has_series {
-                self.find_excess(side, (part.length, true), peaks, &mut work.peaks.floors);
+                self.bound_building(side, (part.length, true), peaks, &mut work.peaks.floors);
             }
-            self.search_building(side, part, peaks, work);
+            self.note_open_floors(side, part.length, peaks, work.peaks);
         }
         if are_links_open {
-            self.check_links(part, peaks, work);
+            self.note_open_links(part, peaks, work);
         }
     }
 
@@ -182,7 +194,7 @@ impl PeakFinder<'_> {
             let ends = larger(first_forces[p].abs(), last_forces[p].abs());
             let (strongest, pulls) = (larger(strongest[p], ends), pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
-            for FloorShare { lane, push, .. } in pair.row.floors {
+            for FloorShare { lane, push, .. } in pair.row.floors.into_iter().filter(|floor| floor.push != 0.0) {
                 // Pushed to the left, which a pull does to the right; or the other way round.
                 let (by_push, by_pull) = (push * strongest, -push * pulled);
                 let of_force = if push < 0.0 { [by_push, by_pull] } else { [by_pull, by_push] };
@@ -194,70 +206,94 @@ impl PeakFinder<'_> {
         }
     }
 
-    /// Raises the peaks of a building within the step, of which it is known by how much each floor's may be exceeded.
-    fn search_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+    /// Notes the quantities of a building that may exceed their peaks within a step of `h` seconds.
+    fn note_open_floors(&self, side: Side, h: f64, peaks: &mut Peaks, PeakRoom { floors, open, .. }: &mut PeakRoom) {
+        let lanes = self.system.structure.floors.lanes_of(side as usize);
+        let FloorRoom { start, end, pushes, upper, .. } = &*floors;
         let kinds = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
-        for (kind, of) in kinds.into_iter().enumerate() {
-            for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
-                // Written so that a NaN is never below anything.
-                if work.peaks.floors.excess[kind][lane] <= 0.0 {
+        for (kind, (of, upper)) in kinds.into_iter().zip(upper).enumerate() {
+            let first = self.watched.rows.place(of(side, 0));
+            let bounds = upper[lanes.clone()].iter().zip(&peaks.values[first..]);
+            for (floor, (&upper, &peak)) in bounds.enumerate() {
+                if upper <= peak {
                     continue;
                 }
-                let FloorRoom { end, pushes: [_, pushed], .. } = &work.peaks.floors;
-                let at_end = [end.u[lane], end.drift[lane], end.resisted[lane] + pushed[lane]][kind];
-                let place = self.watched.rows.place(of(side, floor));
-                let peak = self.highest_in_contact(of(side, floor), (peaks.values[place], at_end), part, work);
-                peaks.raise(place, peak);
+                let lane = lanes.start + floor;
+                let of_motion = [start, end].map(|at| [at.u[lane], at.drift[lane], at.resisted[lane]][kind]);
+                let of_forces = pushes.each_ref().map(|pushed| if kind == 2 { pushed[lane] } else { 0.0 });
+                let ends = [of_motion[0] + of_forces[0], of_motion[1] + of_forces[1]];
+                // The peaks have been raised to the ends.
+                open.push(OpenQuantity { of: of(side, floor), place: first + floor, ends, upper });
             }
         }
-        let (shears, bound) = self.bound_shear(side, part.length, &work.peaks.floors);
-        self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
+        let (ends, upper) = self.bound_shear(side, h, floors);
+        self.note_open((PeakOf::BaseShear(side), upper), ends, peaks, open);
     }
 
-    /// Raises one peak from the values at both ends, a bound on it, and whether the quantity is monotonic.
-    #[inline(always)]
-    pub(in crate::engine) fn check_one(
+    /// Raises the peak of a quantity to its values at both ends of a step, and notes it if an upper bound is above that.
+    pub(super) fn note_open(
         &self,
-        of: PeakOf,
+        (of, upper): (PeakOf, f64),
         ends: [f64; 2],
-        (bound, goes_on): (f64, bool),
+        peaks: &mut Peaks,
+        open: &mut Vec<OpenQuantity>,
+    ) {
+        let place = self.watched.rows.place(of);
+        let quantity = OpenQuantity { of, place, ends, upper };
+        if quantity.may_exceed(peaks) {
+            ends.into_iter().for_each(|end| peaks.raise(place, end));
+            open.extend(quantity.may_exceed(peaks).then_some(quantity));
+        }
+    }
+
+    /// Raises the peaks that have been noted over a part of a step.
+    fn search_noted(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+        let open = std::mem::take(&mut work.peaks.open);
+        self.search_open(&open, part, peaks, work);
+        work.peaks.open = open;
+    }
+
+    /// Raises the peaks of open quantities over a part of a step.
+    pub(super) fn search_open(
+        &self,
+        open: &[OpenQuantity],
         part: &ContactStep,
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let place = self.watched.rows.place(of);
-        // Written so that a NaN is never below anything.
-        let is_below = bound <= peaks.values[place];
-        if !is_below {
-            ends.into_iter().for_each(|end| peaks.raise(place, end));
-            if !goes_on {
-                let peak = self.highest_in_contact(of, (peaks.values[place], ends[1]), part, work);
-                peaks.raise(place, peak);
+        work.peaks.readings.restart();
+        for quantity in open {
+            if quantity.may_exceed(peaks) {
+                let known = peaks.values[quantity.place];
+                peaks.raise(quantity.place, self.highest_in_contact(quantity, known, part, work));
             }
         }
     }
 
-    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger; `at_end` is its value
-    /// at the end of the part. Turning points are searched for in the whole step, so that each has the same bits
-    /// whatever part is asked for.
+    /// The largest magnitude of a quantity within a part of a step, or less than its `known` peak if that is larger. Turning
+    /// points are searched for in the whole step, so that each has the same bits whatever part is asked for.
     #[inline(never)]
     fn highest_in_contact(
         &self,
-        of: PeakOf,
-        (known, at_end): (f64, f64),
+        &OpenQuantity { of, place, ends: [at_start, at_end], .. }: &OpenQuantity,
+        known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
-        let span = self.span_of(self.watched.rows.body_of(self.watched.rows.place(of) / LANES), part.base.coordinates);
+        let span = self.span_of(self.watched.rows.body_of(place / LANES), part.base.coordinates);
         let step = part.step;
-        let at_rest = part.base.rest.watched[self.watched.rows.place(of)] + self.soften_row(of, part.base, &mut rows);
+        let at_rest = part.base.rest.watched[place] + self.soften_row(of, part.base, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),
-            Dense::Window(window, series) => self.highest_in_window(&quantity, known, (window, series), part, work),
+            // Whatever else is known: what is found does not depend on when the window is searched.
+            Dense::Window(window, series) => {
+                let ends = larger(at_start.abs(), at_end.abs());
+                self.highest_in_window(&quantity, ends, (window, series), part, work)
+            }
             Dense::Taylor(Solution { series, substitution, end, .. }) => {
                 let (terms, order) = quantity.terms(series, Some(substitution));
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };

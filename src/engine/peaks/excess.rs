@@ -1,9 +1,9 @@
-//! By how much the floors of a building may exceed their peaks within a step in contact: from both ends of the step, to
-//! which the peaks rise at once, and bounds on the motion in between.
+//! Bounds on the floors of a building within a step in contact: from both ends of the step, to which the peaks rise at once, and
+//! bounds on the motion in between.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::chord::{add_larger, exceed_by_deviation, exceed_by_motion, exceed_by_push, set_largest};
+use crate::engine::bounds::chord::{add_larger, bound_by_deviation, bound_by_motion, bound_by_push, set_largest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakWork};
@@ -15,9 +15,9 @@ use crate::scene::Place;
 use crate::structure::{MotionSeries, Side};
 
 impl PeakFinder<'_> {
-    /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and works out by how much they
-    /// may be exceeded in between, by the bounds on its floors; returns whether any may.
-    pub(super) fn find_excess(
+    /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and bounds its floors in between;
+    /// returns whether any peak may be exceeded.
+    pub(super) fn bound_building(
         &self,
         side: Side,
         (h, has_series): (f64, bool),
@@ -32,28 +32,19 @@ impl PeakFinder<'_> {
             });
         let [of_displacements, of_drifts, of_accelerations] = of_peaks;
         let FloorRoom {
-            start,
-            end,
-            pushes: [first, last],
-            least,
-            most,
-            largest,
-            largest_of_drifts,
-            strays,
-            excess,
-            ..
+            start, end, pushes: [first, last], least, most, largest, largest_of_drifts, strays, upper, ..
         } = room;
-        let [moved, drifted, pushed] = excess.each_mut().map(|excess| &mut excess[lanes.clone()]);
+        let [moved, drifted, pushed] = upper.each_mut().map(|upper| &mut upper[lanes.clone()]);
         let motion = [&start.u, &end.u, &start.v, &end.v, largest].map(|of| &of[lanes.clone()]);
-        let are_moved_below = exceed_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
+        let are_moved_below = bound_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
         let motion =
             [&start.drift, &end.drift, &start.drifting, &end.drifting, largest_of_drifts].map(|of| &of[lanes.clone()]);
-        let are_drifted_below = exceed_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
+        let are_drifted_below = bound_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
         let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
         let [least, most, strays] = [least, most, strays].map(|of| &of[lanes.clone()]);
         let are_pushed_below = match has_series {
-            true => exceed_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
-            false => exceed_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
+            true => bound_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
+            false => bound_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
         };
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
         // Written so that a NaN is never below anything.

@@ -8,23 +8,22 @@ use crate::engine::peaks::room::{FloorRoom, FloorState, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
 use crate::numerics::polynomial::larger;
 
-/// What is known of a quantity of a link over a step: its values at both ends, a bound on its magnitude, and whether it is
-/// monotonic.
-type LinkCourse = (PeakOf, [f64; 2], (f64, bool));
+/// What is known of a quantity of a link over a step: an upper bound on its magnitude, and its values at both ends.
+type LinkCourse = ((PeakOf, f64), [f64; 2]);
 
 impl PeakFinder<'_> {
     /// Whether a peak of a link may be exceeded over the step, by the bounds on its floors.
     pub(in crate::engine) fn links_may_exceed(&self, part: &ContactStep, peaks: &Peaks, work: &PeakWork) -> bool {
         let mut courses = (0..self.system.structure.links.len()).flat_map(|l| self.courses_of_link(l, part, work));
         // Written so that a NaN is never below anything.
-        !courses.all(|(of, _, (bound, _))| bound <= peaks.values[self.watched.rows.place(of)])
+        !courses.all(|((of, upper), _)| upper <= peaks.values[self.watched.rows.place(of)])
     }
 
-    /// Raises the peaks of all links over the step.
-    pub(in crate::engine) fn check_links(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+    /// Notes the quantities of links that may exceed their peaks within the step.
+    pub(super) fn note_open_links(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         for l in 0..self.system.structure.links.len() {
-            for (of, ends, bound) in self.courses_of_link(l, part, work) {
-                self.check_one(of, ends, bound, part, peaks, work);
+            for (bound, ends) in self.courses_of_link(l, part, work) {
+                self.note_open(bound, ends, peaks, &mut work.peaks.open);
             }
         }
     }
@@ -60,8 +59,8 @@ impl PeakFinder<'_> {
         let moved = largest_of(0) + if goes_on { 0.0 } else { sag };
         let pushed = largest_of(2) + (link.stiffness * sag + 0.5 * h * link.dashpot * fastest);
         [
-            (PeakOf::LinkDisplacement(l), [first[0], last[0]], (moved, goes_on)),
-            (PeakOf::LinkForce(l), [first[2], last[2]], (pushed, false)),
+            ((PeakOf::LinkDisplacement(l), moved), [first[0], last[0]]),
+            ((PeakOf::LinkForce(l), pushed), [first[2], last[2]]),
         ]
     }
 }

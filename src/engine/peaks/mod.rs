@@ -6,7 +6,7 @@
 //! are needed: flights are logged (`flight/log.rs`) and read many at once, by their slow modes ([`fold`]). In contact the largest
 //! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
-//! series in time ([`reading`]).
+//! series in time ([`reading`]); steps in contact wait for that in a log of their own ([`step_log`]).
 //!
 //! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
 //! these and the part of the planned step so far are added when a peak is read; where peaks are read often, the next flights
@@ -26,6 +26,7 @@ pub mod reading;
 pub mod rest;
 pub mod room;
 pub mod search;
+pub mod step_log;
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;

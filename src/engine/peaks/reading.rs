@@ -31,13 +31,21 @@ pub struct ContactStep<'a> {
     pub base: &'a Base,
     pub step: &'a Step,
     pub inputs: &'a Inputs,
+    /// Penetrations, m, and rates, m/s, at the start.
+    pub starts: &'a [(f64, f64)],
     /// Length, s.
     pub length: f64,
     /// q and v at the end, in the coordinates of the base and relative to its position of rest.
     pub end: (&'a [f64], &'a [f64]),
 }
 
-impl ContactStep<'_> {
+impl<'a> ContactStep<'a> {
+    /// The whole of a step.
+    pub fn whole((base, step, inputs): (&'a Base, &'a Step, &'a Inputs), starts: &'a [(f64, f64)]) -> ContactStep<'a> {
+        let planned = &step.planned;
+        ContactStep { base, step, inputs, starts, length: planned.length, end: (&planned.q, &planned.v) }
+    }
+
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
     pub fn ground(&self) -> (f64, f64) {
         let Base { segment, elapsed, .. } = self.base;
@@ -186,7 +194,7 @@ impl PeakFinder<'_> {
         if time == 0.0 {
             q.copy_from_slice(&base.q);
             v.copy_from_slice(&base.v);
-            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = work.peaks.starts[p]);
+            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = part.starts[p]);
         } else if time == step.planned.length {
             q.copy_from_slice(&step.planned.q);
             v.copy_from_slice(&step.planned.v);

@@ -1,6 +1,7 @@
 //! Scratch memory for peaks, and results that are kept from segment to segment and from quantity to quantity. None of
 //! it changes a result, so no saved state holds it.
 
+use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::peaks::fold_room::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
@@ -77,6 +78,26 @@ pub struct Suspect {
     pub cleared_in: Option<u32>,
 }
 
+/// A quantity that may exceed its peak within a step in contact.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenQuantity {
+    pub of: PeakOf,
+    /// Its index among the quantities of all blocks.
+    pub place: usize,
+    /// Its values at both ends of the step.
+    pub ends: [f64; 2],
+    /// An upper bound on its magnitude.
+    pub upper: f64,
+}
+
+impl OpenQuantity {
+    /// Whether it may exceed its peak; a NaN may.
+    pub fn may_exceed(&self, peaks: &Peaks) -> bool {
+        let is_below = self.upper <= peaks.values[self.place];
+        !is_below
+    }
+}
+
 /// Scratch memory; between calls only the end of the last step in `floors` means anything.
 #[derive(Clone, Debug)]
 pub struct PeakRoom {
@@ -104,6 +125,8 @@ pub struct PeakRoom {
     /// The floors within a step that is a power series.
     pub within: FloorState,
     pub readings: Readings,
+    /// What may exceed its peak within a step in contact.
+    pub open: Vec<OpenQuantity>,
     /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
     /// The contact forces at the start of a step, N.
@@ -136,6 +159,7 @@ impl PeakRoom {
             floors: FloorRoom::new(lanes),
             within: FloorState::new(lanes),
             readings: Readings::new(if rows.are_none() { 0 } else { lanes }),
+            open: Vec::with_capacity(rows.blocks() * LANES),
             strongest: vec![0.0; pairs],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
@@ -213,9 +237,8 @@ pub struct FloorRoom {
     pub drift_accelerations: [Vec<f64>; 2],
     /// Bounds on the deviation of r from its chord, m/s2.
     pub strays: Vec<f64>,
-    /// Bounds on the excess of each floor over its peaks of displacement, drift and acceleration; nothing is exceeded
-    /// up to 0.
-    pub excess: [Vec<f64>; 3],
+    /// Upper bounds on the magnitudes of displacement, drift and acceleration of each floor.
+    pub upper: [Vec<f64>; 3],
     /// Scratch vector on modes.
     pub modal: Vec<f64>,
     /// The time of `end`: bits of the start of its segment and of the time since then.
@@ -236,7 +259,7 @@ impl FloorRoom {
             accelerations: [vector(), vector()],
             drift_accelerations: [vector(), vector()],
             strays: vector(),
-            excess: [vector(), vector(), vector()],
+            upper: [vector(), vector(), vector()],
             modal: vector(),
             known: None,
         }

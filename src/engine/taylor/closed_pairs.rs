@@ -138,9 +138,9 @@ impl ClosedPairs {
     }
 
     /// Writes bounds on the magnitudes of the forces up to the x of the powers, N, one per contact.
-    pub fn bound_forces(&self, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
-        for (block, members) in self.packed.all() {
-            let depth = block.read(powers);
+    pub fn bound_forces(&self, contacts: &[Contact], (powers, is_end): (&Powers, bool), out: &mut [f64]) {
+        for ((block, members), reading) in self.packed.all().zip(&self.readings) {
+            let depth = if is_end { *reading } else { block.read(powers) };
             let force = (!block.is_elastic()).then(|| block.read_force(powers));
             for (lane, pair) in members.lanes() {
                 let highest = |terms: &[Each], end: Evaluation, sign: f64| {

@@ -31,7 +31,7 @@ impl Solution {
 
     /// Writes bounds on the magnitudes of the contact forces up to the x of the powers, N.
     pub fn bound_forces(&self, system: &System, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
-        self.closed.bound_forces(contacts, powers, out);
+        self.closed.bound_forces(contacts, (powers, powers.x == self.end.x), out);
         for (terms, &p) in self.reactions.iter().zip(&system.rigid.pairs) {
             if contacts[p].is_held() {
                 let powers = powers.all().0.iter();

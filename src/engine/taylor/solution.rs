@@ -37,13 +37,24 @@ impl Solution {
     pub fn new(system: &System) -> Solution {
         let on_floors = system.contact_coordinates == Coordinates::Floors;
         Solution {
-            series: MotionSeries::new(system.structure.lanes, MAX_ORDER + 2),
-            end: Powers::default(),
             closed: ClosedPairs::new(&system.pairs, on_floors),
             drifts: YieldingDrifts::new(system.storeys.len()),
             open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
+            ..Solution::of_motion(system.structure.lanes)
+        }
+    }
+
+    /// Allocates for the motion alone.
+    pub fn of_motion(lanes: usize) -> Solution {
+        Solution {
+            series: MotionSeries::new(lanes, MAX_ORDER + 2),
+            closed: ClosedPairs::new(&[], false),
+            drifts: YieldingDrifts::new(0),
+            open: OpenPairs::new(0, false),
+            reactions: Vec::new(),
             reaction_order: 0,
+            end: Powers::default(),
             substitution: Box::default(),
         }
     }

@@ -2,7 +2,7 @@
 //! against what turns less.
 
 use super::motions::{Comparison, Random, largest};
-use crate::engine::bounds::chord::{exceed_by_deviation, exceed_by_motion, exceed_by_push};
+use crate::engine::bounds::chord::{bound_by_deviation, bound_by_motion, bound_by_push};
 
 const INSTANTS: usize = 200;
 
@@ -61,21 +61,21 @@ fn nothing_exceeds_its_peak_by_more_than_chords_say() {
         let h = random.power_of_ten(-4.0, 1.0);
         let curve = Curve::any(&mut random, h);
         let known = random.between(0.0, 1.0) * curve.top.abs();
-        let (mut peak, mut excess) = ([known], [f64::NAN]);
+        let (mut peak, mut upper) = ([known], [f64::NAN]);
         let ends = [curve.value(0.0), curve.value(h)];
         let [start, end, rate, end_rate, bent] =
             [ends[0], ends[1], curve.slope(0.0), curve.slope(h), curve.most_bent()].map(|number| [number]);
-        let is_below = exceed_by_motion([&start, &end, &rate, &end_rate, &bent], h, &mut peak, &mut excess);
-        assert_eq!(is_below, excess[0] <= 0.0);
+        let is_below = bound_by_motion([&start, &end, &rate, &end_rate, &bent], h, &mut peak, &mut upper);
+        assert_eq!(is_below, upper[0] <= peak[0]);
         assert_eq!(peak[0], known.max(ends[0].abs()).max(ends[1].abs()));
         let reached = largest(times(h).map(|t| curve.value(t)));
         let size = bent[0] * h * h + curve.top.abs();
-        inside.note(reached - peak[0], excess[0].max(0.0), 1e-13 * size, &|| format!("{curve:?}, {h:e} s"));
+        inside.note(reached - peak[0], (upper[0] - peak[0]).max(0.0), 1e-13 * size, &|| format!("{curve:?}, {h:e} s"));
         // A parabola that turns well before or after the step is known to go on.
         let is_outside = curve.turn < -0.01 * h || curve.turn > 1.01 * h;
         if curve.is_parabola() && is_outside {
             closed += 1;
-            assert!(excess[0] <= 0.0, "{curve:?}, {h:e} s");
+            assert!(upper[0] <= peak[0], "{curve:?}, {h:e} s");
         }
     }
     assert!(closed > 1000);
@@ -100,13 +100,13 @@ fn no_acceleration_exceeds_its_peak_by_more_than_chords_say() {
         let resisted = if has_series { [ends[0] - first, ends[1] - last] } else { ends };
         let [start, end, first, last, least, most] =
             [resisted[0], resisted[1], first, last, range[0], range[1]].map(|number| [number]);
-        let (mut peak, mut excess) = ([0.0], [f64::NAN]);
+        let (mut peak, mut upper) = ([0.0], [f64::NAN]);
         let at_ends = [&start[..], &end, &first, &last];
         let is_below = match has_series {
-            true => exceed_by_deviation(at_ends, &stray, &mut peak, &mut excess),
-            false => exceed_by_push(at_ends, [&least, &most, &stray], &mut peak, &mut excess),
+            true => bound_by_deviation(at_ends, &stray, &mut peak, &mut upper),
+            false => bound_by_push(at_ends, [&least, &most, &stray], &mut peak, &mut upper),
         };
-        assert_eq!(is_below, excess[0] <= 0.0);
+        assert_eq!(is_below, upper[0] <= peak[0]);
         let push = |t: f64| match t {
             _ if has_series => 0.0,
             0.0 => first[0],
@@ -115,11 +115,12 @@ fn no_acceleration_exceeds_its_peak_by_more_than_chords_say() {
         };
         let reached = largest(times(h).map(|t| curve.value(t) + push(t)));
         let comparison = if has_series { &mut whole } else { &mut apart };
-        comparison.note(reached - peak[0], excess[0].max(0.0), 1e-13 * scale, &|| format!("{curve:?}, {h:e} s"));
+        comparison
+            .note(reached - peak[0], (upper[0] - peak[0]).max(0.0), 1e-13 * scale, &|| format!("{curve:?}, {h:e} s"));
         // The ends of a parabola that turns well before or after the step are far apart.
         if has_series && curve.is_parabola() && (curve.turn < -0.01 * h || curve.turn > 1.01 * h) {
             closed += 1;
-            assert!(excess[0] <= 0.0, "{curve:?}, {h:e} s");
+            assert!(upper[0] <= peak[0], "{curve:?}, {h:e} s");
         }
     }
     assert!(closed > 1000);
