@@ -156,7 +156,8 @@ def make_fmus():
 
 
 def check_wheel():
-    """The wheel packs the bytes that `cargo fmu` packs, in both versions, and makes the page that is published."""
+    """The wheel packs the bytes that `cargo fmu` packs, in both versions, and makes the page that is published, and one that
+    opens with a scene."""
     folder, made, made_page = WORK / "wheel", WORK / "by-wheel.fmu", WORK / "by-wheel.html"
     shutil.rmtree(folder, ignore_errors=True)
     (wheel,) = DRAFT.glob("wheels/*.whl")
@@ -171,6 +172,11 @@ def check_wheel():
     run(sys.executable, "-m", "pounding_fmu", "page", "-o", made_page, variables={"PYTHONPATH": folder})
     if made_page.read_bytes() != PAGE.read_bytes():
         problems.append(f"{PAGE.name}: the wheel makes another page")
+    scene = ROOT / "examples/scenes/feup.toml"
+    run(sys.executable, "-m", "pounding_fmu", "page", scene, "-o", made_page, variables={"PYTHONPATH": folder})
+    given = page.assembly.element(made_page.read_text(), "given")[1]
+    if given != page.assembly.spoken({"file": scene.name, "text": scene.read_text()}):
+        problems.append(f"{made_page.name}: it does not open with {scene.name}")
     return problems
 
 

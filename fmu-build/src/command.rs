@@ -56,8 +56,15 @@ pub fn carry_out(name: &str, work: impl FnOnce() -> anyhow::Result<Verdict> + st
     }
 }
 
+/// Says what a command line asks for or what is wrong with it, and returns the exit code.
+pub fn say(usage: &clap::Error) -> u8 {
+    let (written, code) = (usage.print(), u8::try_from(usage.exit_code()).unwrap_or(2));
+    // Nobody may be there to read what is wrong with the usage.
+    if usage.use_stderr() { code } else { code_of(written.and_then(|()| io::stdout().flush()), code) }
+}
+
 /// The exit code of a command that has written to standard output: 1 where what it has said is lost.
-pub fn code_of(written: io::Result<()>, code: u8) -> u8 {
+fn code_of(written: io::Result<()>, code: u8) -> u8 {
     match written {
         // A reader that has seen enough (`| head`) closes the pipe: no error of ours.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

@@ -14,7 +14,6 @@ pub struct Description {
     /// The GUID, or `instantiationToken`.
     pub token: String,
     pub experiment: Option<DefaultExperiment>,
-    pub log_categories: Vec<String>,
     pub variables: Vec<Variable>,
     pub outputs: Vec<Unknown>,
     pub initial_unknowns: Vec<Unknown>,
@@ -89,7 +88,6 @@ fn of_fmi2(read: fmi2::ModelDescription) -> Result<Description> {
         identifier: interface.modelIdentifier,
         token: read.guid,
         experiment: read.defaultExperiment,
-        log_categories: read.logCategories.into_iter().map(|category| category.name).collect(),
         variables: read.modelVariables.into_iter().map(variable_of_fmi2).collect(),
         outputs: unknowns(read.outputs),
         initial_unknowns: unknowns(read.initialUnknowns),
@@ -109,7 +107,6 @@ fn of_fmi3(read: fmi3::ModelDescription) -> Result<Description> {
         identifier: interface.modelIdentifier,
         token: read.instantiationToken,
         experiment: read.defaultExperiment,
-        log_categories: read.logCategories.into_iter().map(|category| category.name).collect(),
         variables: read.modelVariables.into_iter().map(variable_of_fmi3).collect(),
         outputs: unknowns(read.outputs),
         initial_unknowns: unknowns(read.initialUnknowns),

@@ -42,6 +42,10 @@ impl Face for CargoFmu {
 }
 
 fn main() -> ExitCode {
-    let Arguments { command, build } = Arguments::parse();
-    ExitCode::from(command::carry_out(CargoFmu.name(), || command::run(&CargoFmu, command, &build)))
+    ExitCode::from(match Arguments::try_parse() {
+        Ok(Arguments { command, build }) => {
+            command::carry_out(CargoFmu.name(), || command::run(&CargoFmu, command, &build))
+        }
+        Err(usage) => command::say(&usage),
+    })
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import argparse
 import difflib
 import importlib
 import os
@@ -99,8 +100,10 @@ def carry_out(module: str, arguments: list[str]) -> int:
     """Does what a command in Python does. Whatever goes wrong is said in a line, and is the exit code."""
     warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
     sys.unraisablehook = interrupt_again
+    # The usual one keeps to itself that a help could not be written.
+    setattr(argparse.ArgumentParser, "print_help", lambda parser: print(parser.format_help(), end=""))
     try:
-        code: int = importlib.import_module(f"pounding_fmu.{module}").main(arguments)
+        code = result_of(module, arguments)
         sys.stdout.flush()
     except KeyboardInterrupt:
         return interrupted()
@@ -119,6 +122,15 @@ def carry_out(module: str, arguments: list[str]) -> int:
         what = f"{type(error).__name__}: {error}"
         return say(f"pounding-fmu has met a bug of its own ({what}); please report it together with the scene")
     return interrupted() if code == INTERRUPTED else code
+
+
+def result_of(module: str, arguments: list[str]) -> int:
+    """The exit code of a command, also where reading its arguments has ended it."""
+    try:
+        code: int = importlib.import_module(f"pounding_fmu.{module}").main(arguments)
+    except SystemExit as end:
+        return int(end.code or 0)
+    return code
 
 
 def interrupt_again(unraisable: sys.UnraisableHookArgs) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._scenes import MOST_PROBLEMS, Names, names_of, positive, read_record, read_scene, refuse, warn, whole
+from ._scenes import MOST_PROBLEMS, Names, by_name, names_of, positive, read_record, read_scene, refuse, warn, whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -96,12 +96,12 @@ def simulate_batch(
     stop = None if stop is None else positive("stop", stop)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress = {progress!r}: expected a function")
-    columns = dict(parameters or {})
+    columns = by_name("parameters", parameters)
     key = "records"
     if "ground.record" in columns and "ground.record" in Names(read).references:
         if records is not None:
             raise ValueError("ground.record and records: expected one of them")
-        key, records = "ground.record", columns.pop("ground.record")  # type: ignore[assignment]
+        key, records = "ground.record", columns.pop("ground.record")
     motions = _Motions(read, records, key)
     names = Names(motions.scenes[0])
     names.check(columns, outputs)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from . import _native
 from ._data import DATA
-from ._scenes import path_of, read_scene, warn
+from ._scenes import file_path, path_of, read_scene, warn
 
 if TYPE_CHECKING:
     from ._scenes import Scene
@@ -55,5 +55,5 @@ def build_fmu(
             raise ValueError("platforms: expected at least one, or None for all")
     read = read_scene(scene)
     warn(read.warnings())
-    path = None if output is None else os.fsdecode(output)
+    path = None if output is None else file_path("output", output)
     return _native.build(read, path, path_of(scene), os.fspath(DATA / "libraries"), platforms or [], fmi == 3)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "IMPACT_COLUMNS",
+    "MOST_TIME",
     "STEP",
     "Batch",
     "Record",
@@ -23,6 +24,7 @@ __all__ = [
 ]
 
 __version__: str
+MOST_TIME: float
 STEP: float
 IMPACT_COLUMNS: list[str]
 

@@ -7,6 +7,7 @@ import operator
 import os
 import warnings
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
 
 from . import _native
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     Record: TypeAlias = "str | os.PathLike[str] | tuple[ArrayLike, ArrayLike]"
 
 MOST_PROBLEMS = 20
+SECONDS = f"a number of seconds > 0 and at most {_native.MOST_TIME:g}"
 
 
 class SceneWarning(UserWarning):
@@ -89,16 +91,40 @@ def read_scene(scene: Scene) -> _native.Scene:
     return read
 
 
+def read_file(file: str | os.PathLike[str]) -> _native.Scene:
+    """The scene of a command, which is a file: each line of what is wrong with it names it."""
+    read, found = _read(Path(file))
+    if read is None:
+        raise ValueError("\n".join(f"{file}: {line}" for line in found))
+    return read
+
+
 def path_of(scene: Scene) -> str | None:
     """Where the file of a scene is that is given as one."""
     is_text = isinstance(scene, str) and "\n" in scene
-    return None if is_text or not isinstance(scene, (str, os.PathLike)) else os.fsdecode(scene)
+    return None if is_text or not isinstance(scene, (str, os.PathLike)) else file_path("scene", scene)
+
+
+def file_path(key: str, path: str | os.PathLike[str]) -> str:
+    """A path that a file can have; `key` is what messages call it."""
+    text = os.fsdecode(path)
+    try:
+        is_possible = bool(text) and b"\0" not in os.fsencode(text)
+    except UnicodeEncodeError:
+        is_possible = False
+    if not is_possible:
+        raise ValueError(f"{key} = {text!r}: expected a path of a file")
+    return text
 
 
 def _read(scene: Scene) -> tuple[_native.Scene | None, list[str]]:
     path = path_of(scene)
     if path is None and isinstance(scene, str):
-        return _native.Scene.parse(scene)
+        try:
+            return _native.Scene.parse(scene)
+        except UnicodeEncodeError as error:
+            line, half = scene.count("\n", 0, error.start) + 1, scene[error.start]
+            return None, [f"line {line}: {half!r} is half of a character: expected a text in Unicode"]
     if path is not None:
         with open(path, "rb"):  # a file that cannot be read is no mistake of the scene
             pass
@@ -164,13 +190,13 @@ def refuse(found: list[str]) -> None | NoReturn:
 
 
 def positive(name: str, value: object) -> float:
-    """A number of seconds > 0."""
+    """A number of seconds > 0 that a scene may have, too."""
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         number = 0.0
-    if isinstance(value, str) or not 0.0 < number < float("inf"):
-        raise ValueError(f"{name} = {value!r}: expected a number of seconds > 0")
+    if isinstance(value, str) or not 0.0 < number <= _native.MOST_TIME:
+        raise ValueError(f"{name} = {value!r}: expected {SECONDS}")
     return number
 
 
@@ -185,6 +211,14 @@ def whole(name: str, value: object, least: int, most: int) -> int:
     return min(number, most)
 
 
+def by_name(key: str, values: Mapping[str, Any] | None) -> dict[str, Any]:
+    """What has been given by name; `key` is what messages call it."""
+    try:
+        return {} if values is None else dict(values)
+    except (TypeError, ValueError):
+        raise TypeError(f"{key} = {values!r}: expected a dict by names of parameters") from None
+
+
 def names_of(outputs: Iterable[str]) -> list[str]:
     """Names of outputs; a single one is no list."""
     if isinstance(outputs, str):
@@ -195,7 +229,7 @@ def names_of(outputs: Iterable[str]) -> list[str]:
 def read_record(record: Record, key: str) -> _native.Record:
     """The record of a path or of a pair of arrays; `key` is what messages call it."""
     if isinstance(record, (str, os.PathLike)):
-        path = os.fsdecode(record)
+        path = file_path(key, record)
         try:
             return _native.Record.read(path, key)
         except OSError:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._extras import require
 from ._notebook import page
-from ._scenes import Names, names_of, positive, read_record, read_scene, refuse, unknown, variables_of, warn, whole
+from ._scenes import Names, by_name, names_of, positive, read_record, read_scene, refuse, unknown, variables_of, warn, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -168,7 +168,7 @@ def simulate(
     read = read_scene(scene)
     if record is not None:
         read = read.with_record(read_record(record, "record"))
-    read, names = _with_parameters(read, {} if parameters is None else dict(parameters), record is not None)
+    read, names = _with_parameters(read, by_name("parameters", parameters), record is not None)
     slips = read.warnings()
     if without_contacts:
         read = read.without_contacts()

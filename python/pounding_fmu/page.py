@@ -8,7 +8,7 @@ from pathlib import Path
 from . import _native
 from ._data import DATA
 from ._page import assembled, libraries_in
-from ._scenes import read_scene, warn
+from ._scenes import read_file, warn
 
 TEMPLATE = DATA / "page.html"
 LIBRARIES = DATA / "libraries"
@@ -22,7 +22,7 @@ def main(arguments: list[str]) -> int:
     if options.scene is None:
         name, page = "pounding", assembled(template, libraries)
     else:
-        scene = read_scene(options.scene)
+        scene = read_file(options.scene)
         warn(scene.warnings())
         given = {"file": options.scene.name, "text": options.scene.read_bytes().decode()}
         name = f"{scene.name}.page"

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 STANDARD_GRAVITY = 9.80665  # m/s2
 PERIODS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)  # s, of the spectrum that is printed
 PICTURE_PERIODS = 100
+LARGEST = 1e100  # m/s2: no ground moves like that, and much larger squares overflow
 PICTURES = (".png", ".svg", ".pdf")
 # A mean is not about 0 from this share of the peak on, or where the velocity that it leaves at the end is this share of
 # the largest that the rest of the motion has.
@@ -92,6 +93,8 @@ def main(arguments: list[str]) -> int:
         require("matplotlib", "plot")
     _native.spare([("-o", options.output), ("--plot", options.plot)], [], [options.file])
     motion = Motion(*read_record(options.file))
+    if (peak := float(abs(motion.acceleration).max())) > LARGEST:
+        raise ValueError(f"{options.file}: acceleration {peak:g} m/s2: expected at most {LARGEST:g} m/s2")
     print(options.file)
     print("\n".join(origin(options.file)))
     removed = motion.mean if options.remove_mean else None

@@ -78,11 +78,7 @@ pub fn run_command(
         let parsed = command.try_get_matches_from(arguments).and_then(|found| Arguments::from_arg_matches(&found));
         let arguments = match parsed {
             Ok(arguments) => arguments,
-            Err(usage) => {
-                let (written, code) = (usage.print(), u8::try_from(usage.exit_code()).unwrap_or(2));
-                // Nobody may be there to read what is wrong with the usage.
-                return if usage.use_stderr() { code } else { command::code_of(written, code) };
-            }
+            Err(usage) => return command::say(&usage),
         };
         let face = PoundingFmu { again, data };
         command::carry_out(face.name(), || run(&face, arguments))

@@ -55,7 +55,9 @@ fn value(object: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value>
     } else if object.is_instance_of::<PyFloat>() {
         Ok(Value::Float(object.extract()?))
     } else if object.is_instance_of::<PyString>() {
-        Ok(Value::Text(object.extract()?))
+        let found = object.repr()?;
+        let half = |_| PyValueError::new_err(format!("{path} = {found}: expected a text in Unicode"));
+        object.extract().map(Value::Text).map_err(half)
     } else if let Ok(table) = object.cast::<PyMapping>() {
         entries(table, path, depth)
     } else if object.hasattr("tolist")? {

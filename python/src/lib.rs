@@ -55,6 +55,7 @@ mod _native {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         // A panic becomes an exception (`threads::caught`); its own message is not for users.
         std::panic::set_hook(Box::new(|_| {}));
+        module.add("MOST_TIME", pounding::record::MOST_TIME)?;
         module.add("STEP", pounding_simulate::STEP)?;
         module.add("IMPACT_COLUMNS", pounding_simulate::tables::IMPACT_COLUMNS.to_vec())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))

@@ -179,6 +179,8 @@ def test_shapes():
         ({"outputs": ["ground.record"]}, ValueError, "ground.record is a text"),
         ({"threads": 0}, ValueError, "threads = 0: expected a whole number > 0"),
         ({"threads": 1.5}, ValueError, "threads = 1.5: expected a whole number > 0"),
+        ({"parameters": [1]}, TypeError, "parameters = [1]: expected a dict by names of parameters"),
+        ({"stop": 1e300}, ValueError, "stop = 1e+300: expected a number of seconds > 0 and at most 1e+12"),
         ({"step": -1}, ValueError, "step = -1: expected a number of seconds > 0"),
         ({"progress": 3}, TypeError, "progress = 3: expected a function"),
         ({"records": 3}, TypeError, "records = 3: expected a record, or a list of records"),

@@ -66,19 +66,20 @@ def test_a_reader_that_has_seen_enough(arguments):
 
 SPEAKING = [
     ["example"],
-    ["--help"],
     ["record", fmus.RECORD],
     ["record", fmus.RECORD, "-o", "converted.csv"],
     ["simulate", fmus.FEUP, "--stop", "1", "--csv", "motion.csv"],
     ["gap", fmus.FEUP],
     [fmus.FEUP],
     ["check", fmus.REFERENCES / "feup.fmu"],
+    *([*command, "--help"] for command in ([], ["simulate"], ["example"], ["study"])),
+    ["--version"],
 ]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="needs a shell that closes streams")
 @pytest.mark.parametrize("closed", [">&-", "<&- >&-", "<&- >&- 2>&-"])
-@pytest.mark.parametrize("arguments", [*SPEAKING, ["example", "--help"]])
+@pytest.mark.parametrize("arguments", SPEAKING)
 def test_closed_streams(arguments, closed, tmp_path):
     """Nobody reads it; what is written to files is what is written there otherwise."""
     command = shlex.join(["pounding-fmu", *map(str, arguments)])

@@ -11,6 +11,7 @@ import pounding_fmu
 import pytest
 from pounding_fmu.gap import required_gap
 from pounding_fmu.gap.search import Search, correlation
+from test_command import run
 
 OFFICES = fmus.EXAMPLES / "scenes/offices.toml"
 STEP = ([0.0, 30.0], [-2.0, -2.0])  # m/s2, to the left: the floors go to the right first
@@ -193,6 +194,28 @@ def test_mistakes_of_the_command():
     wrong = gap(OFFICES, "--records", "nowhere.csv", "--pga", "-1")
     assert wrong.returncode == 1 and "nowhere.csv" in wrong.stderr and "pga: -1.0" in wrong.stderr
     assert gap(OFFICES, "--force", "much").returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("stop_time = 20.0", "stop_time = -1.0"), "stop_time = -1.0: expected"),
+        (('record = "rec', '#record = "rec'), "the scene has no record"),
+        (("[outputs]", "[outputs]\npeaks = false"), "expected a scene with peaks"),
+    ],
+)
+def test_the_command_names_the_scene_that_is_wrong(change, said, tmp_path):
+    scene = tmp_path / "s.toml"
+    scene.write_text(fmus.feup(str(fmus.RECORD), "rec.csv").replace(*change))
+    (tmp_path / "rec.csv").write_bytes(fmus.RECORD.read_bytes())
+    assert f"error: {scene}: {said}" in gap(scene).stderr
+
+
+def test_pictures_and_pages_name_the_scene_that_is_wrong(tmp_path):
+    (tmp_path / "s.toml").write_text("name = 3")
+    for command in ("plot", "animate", "page"):
+        done = run(command, "s.toml", *["-o", "a.gif"] * (command == "animate"), cwd=tmp_path)
+        assert done.stderr.startswith("error: s.toml: name = 3: ") or "without the page" in done.stderr
 
 
 def test_what_falls_by_itself_is_said():

@@ -67,7 +67,7 @@ def test_of_a_file_with_channels_it_has_the_whole(template, tmp_path):
 
 def test_mistakes_of_the_scene_are_told(template, tmp_path):
     (tmp_path / "bad.toml").write_text(fmus.FEUP.read_text().replace("[3.65, 3.65]", "[-3.65, 3.65]"))
-    with pytest.raises(ValueError, match=r"left.mass\[1\] = -3.65: expected a finite mass > 0 kg\nground.record"):
+    with pytest.raises(ValueError, match=r"bad.toml: left.mass\[1\] = -3.65: expected a finite mass > 0 kg\nbad.toml: ground"):
         page.main(["bad.toml"])
     with pytest.raises(FileNotFoundError):
         page.main(["nowhere.toml"])

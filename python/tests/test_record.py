@@ -96,11 +96,13 @@ def test_a_record_is_drawn(suffix, tmp_path):
         (["feup.toml"], 1, "expected a record file, but"),
         (["r.csv", "-o", "r.csv"], 1, "r.csv: this is the record itself"),
         (["r.csv", "-o", "no/such/r.csv"], 1, "no/such/r.csv: No such file"),
+        (["large.csv"], 1, "error: large.csv: acceleration 1e+200 m/s2: expected at most 1e+100 m/s2\n"),
         (["r.csv", "--plot", "r.jpg"], 1, "r.jpg: expected a name that ends in .png, .svg, .pdf"),
     ],
 )
 def test_mistakes_with_records(arguments, code, said, tmp_path):
     (tmp_path / "r.csv").write_text(UNEVEN)
+    (tmp_path / "large.csv").write_text(UNEVEN.replace("1.1", "-1e200"))
     (tmp_path / "feup.toml").write_text(fmus.feup())
     done = run("record", *arguments, cwd=tmp_path)
     assert done.returncode == code and said in done.stderr and "Traceback" not in done.stderr

@@ -88,7 +88,8 @@ def test_problems():
         ({"left": {"mass": [2**70]}}, ValueError, "left.mass[1]: expected a whole number of at most 64 bits"),
         ({"left": {"mass": 1j}}, TypeError, "left.mass = 1j: expected"),
         ({"left": {"mass": np.array([[1.0]])}}, ValueError, "left.mass[1] = [1.0]: expected"),
-        ({"name": "\ud800"}, ValueError, "surrogates"),
+        ({"name": "\ud800"}, ValueError, r"name = '\ud800': expected a text in Unicode"),
+        ({"left": {"\ud800": 1}}, TypeError, r"left: expected keys that are texts, not '\ud800'"),
     ],
 )
 def test_what_a_dict_may_not_hold(change, error, message):
@@ -107,6 +108,20 @@ def test_a_dict_that_holds_itself():
 def test_no_scene(scene):
     with pytest.raises(TypeError, match="scene: expected a path, a text .with a line break. or a dict, not"):
         pounding_fmu.simulate(scene)
+
+
+def test_texts_that_no_file_holds():
+    assert pounding_fmu.problems("name = 'A'\n\n# \ud800") == [
+        r"line 3: '\ud800' is half of a character: expected a text in Unicode"
+    ]
+    for path in ("", "a\0b", "\ud800", Path("\ud800")):
+        for key, call in {
+            "scene": lambda path: pounding_fmu.simulate(path),
+            "record": lambda path: pounding_fmu.simulate(FEUP, record=path),
+            "output": lambda path: pounding_fmu.build_fmu(FEUP, path),
+        }.items():
+            with pytest.raises(ValueError, match=re.escape(f"{key} = {str(path)!r}: expected a path of a file")):
+                call(path)
 
 
 def test_files_that_are_not_there(tmp_path):
@@ -166,6 +181,8 @@ def test_arrays_that_are_no_record(record, message):
             "left.mass[1] = -1.0: expected a finite mass > 0 kg\ncontact[1].restitution = 1.5: expected 0 < e <= 1",
         ),
         ({"left.damping_ratio": float("inf")}, ValueError, "left.damping_ratio = inf: expected"),
+        ([1], TypeError, "parameters = [1]: expected a dict by names of parameters"),
+        (0, TypeError, "parameters = 0: expected a dict by names of parameters"),
     ],
 )
 def test_parameters_that_cannot_be(parameters, error, message):
@@ -186,6 +203,7 @@ def test_inputs_are_no_parameters():
         ({"step": 0}, ValueError, "step = 0: expected a number of seconds > 0"),
         ({"stop": -1}, ValueError, "stop = -1: expected a number of seconds > 0"),
         ({"stop": float("nan")}, ValueError, "stop = nan: expected"),
+        ({"stop": 1e300}, ValueError, "stop = 1e+300: expected a number of seconds > 0 and at most 1e+12"),
         ({"step": "0.1"}, ValueError, "step = '0.1': expected"),
         ({"outputs": ["no", "contact[1].forces"]}, KeyError, "did you mean contact[1].force?"),
         ({"outputs": "impacts"}, TypeError, "outputs = 'impacts': expected a list of names"),

@@ -67,6 +67,15 @@ def test_the_page_of_a_scene(folder):
     assert (folder / "s.toml").read_bytes() == (folder / "s.png").read_bytes()
 
 
+@pytest.mark.parametrize("picture", ["gaps_FeupFrames_1.png", "fragility_FeupFrames_1.png", "varied_FeupFrames.png"])
+def test_pictures_of_a_study(picture, folder):
+    (folder / "s.png").rename(folder / picture)
+    options = ["--gaps", "0.005", "--pga", "1", "--stop", "0.5", "--vary", "left.mass[1]=3,4", "-o", "."]
+    done = run("study", picture, "--records", "rec.csv", *options, cwd=folder)
+    assert done.returncode == 1 and done.stderr.endswith(f"error: {picture}: this is the scene {ITSELF}\n")
+    assert (folder / picture).read_bytes() == (folder / "s.toml").read_bytes()
+
+
 def test_two_tables_are_two_files(folder):
     (folder / "there.csv").write_text("mine")
     for name in ("new.csv", "there.csv"):

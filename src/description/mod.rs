@@ -27,3 +27,5 @@ mod xml3;
 pub use crate::scene::{Package, PackagedRecord};
 pub use log_category::Category;
 pub(crate) use package::guid;
+pub use package::guid_of;
+pub use xml::TOOL;

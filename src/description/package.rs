@@ -28,14 +28,8 @@ impl Package {
 
     /// The same where the variables of the scene are at hand.
     pub(crate) fn fingerprint_with(&self, table: &Table, version: FmiVersion) -> Uuid {
-        let description = xml::document(self, table, version, "");
         let record = self.record.as_ref().map_or(&[][..], |record| &record.bytes);
-        let mut name = Vec::with_capacity(description.len() + self.scene_text.len() + record.len() + 24);
-        for part in [description.as_bytes(), self.scene_text.as_bytes(), record] {
-            name.extend_from_slice(&(part.len() as u64).to_le_bytes());
-            name.extend_from_slice(part);
-        }
-        Uuid::new_v5(&NAMESPACE, &name)
+        fingerprint_of(&xml::document(self, table, version, ""), &self.scene_text, record)
     }
 
     /// s, end of the default experiment: the scene's, else the end of its record.
@@ -43,6 +37,20 @@ impl Package {
         let end_of_record = || self.record.as_ref()?.record.times.last().copied().filter(|&end| end > 0.0);
         self.scene.stop_time.or_else(end_of_record)
     }
+}
+
+/// The GUID that belongs to the text of a description with an empty one, the scene and the record.
+pub fn guid_of(description: &str, scene_text: &str, record: &[u8]) -> String {
+    guid(fingerprint_of(description, scene_text, record))
+}
+
+fn fingerprint_of(description: &str, scene_text: &str, record: &[u8]) -> Uuid {
+    let mut name = Vec::with_capacity(description.len() + scene_text.len() + record.len() + 24);
+    for part in [description.as_bytes(), scene_text.as_bytes(), record] {
+        name.extend_from_slice(&(part.len() as u64).to_le_bytes());
+        name.extend_from_slice(part);
+    }
+    Uuid::new_v5(&NAMESPACE, &name)
 }
 
 /// A fingerprint as descriptions write it.

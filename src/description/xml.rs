@@ -15,6 +15,9 @@ use std::io;
 /// s: communication step of the default experiment. The results do not depend on it.
 const STEP_SIZE: f64 = 0.01;
 
+/// This program and its version, as descriptions name it.
+pub const TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
 /// The whole text, with the scene's variables and this GUID.
 #[expect(clippy::expect_used, reason = "writing to memory cannot fail, and the writer makes UTF-8 of UTF-8")]
 pub(super) fn document(package: &Package, table: &Table, version: FmiVersion, guid: &str) -> String {
@@ -37,7 +40,7 @@ fn write_document(xml: &mut Xml, package: &Package, table: &Table, version: FmiV
         ("modelName", &scene.name),
         (name_of_guid, guid),
         ("description", &text(&scene.description)),
-        ("generationTool", concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))),
+        ("generationTool", TOOL),
         ("variableNamingConvention", "structured"),
     ];
     branch(xml, "fmiModelDescription", attributes, |xml| {

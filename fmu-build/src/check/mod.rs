@@ -1,12 +1,14 @@
 //! `cargo fmu check`: what is wrong with an FMU, as far as it can be seen from outside.
 //!
 //! The description is read and validated, and the FMU run, by an importer that is not ours. What that importer and
-//! other validators do not look at is in [`lint`] (what is written in the FMU), [`behaviour`] (what its library does) and
-//! [`events`] (what it does for a master that takes events). All of it happens in a process of its own, for as long as it may take.
+//! other validators do not look at is in [`scene`] (whether the description is that of the scene), [`lint`] (what is written
+//! in the FMU), [`behaviour`] (what its library does) and [`events`] (what it does for a master that takes events). All of it
+//! happens in a process of its own, for as long as it may take.
 
 mod behaviour;
 mod events;
 mod lint;
+mod scene;
 
 use crate::archive::Unpacked;
 use crate::description::Description;
@@ -21,12 +23,13 @@ use pounding_pack::platform::{self, Platform};
 use std::path::Path;
 
 /// What is looked at, in this order.
-pub const CHECKS: [&str; 10] = [
+pub const CHECKS: [&str; 11] = [
     "archive",
     "description",
     "origin",
     "file names",
     "description lint",
+    "scene",
     "library",
     "exported functions",
     "guid",
@@ -43,6 +46,7 @@ pub fn inspect(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     }
     channel.look("file names", || lint::file_names(&fmu.names))?;
     channel.look("description lint", || lint::document(&text))?;
+    channel.look("scene", || scene::differences(&fmu, &text))?;
 
     let Some(description) = channel.need("description", || Description::read(&text, version(&text)))? else {
         return Ok(());

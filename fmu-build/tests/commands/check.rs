@@ -1,8 +1,11 @@
 //! `cargo fmu check`: nothing wrong in a good FMU, and every planted defect found.
 
 use crate::common::libraries::{exporting, functions, library};
-use crate::common::{Files, cargo_fmu, checked, feup_fmu, files, findings, replace_once, stderr, stdout, write_fmu};
+use crate::common::{
+    Files, cargo_fmu, changed_description, checked, feup_fmu, files, findings, replace_once, stderr, stdout, write_fmu,
+};
 use pounding::FmiVersion;
+use pounding::description::guid_of;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -70,17 +73,12 @@ fn defects_of_the_description_that_validators_miss() {
     plant_in_description(|text| upside_down(&text.replace("min=\"0\"", "")), lint, "min 9 is greater than max 2");
     let nominal = |text: &str| in_variable(text, "left.displacement[1]", "nominal=\"", "nominal=\"-");
     plant_in_description(nominal, lint, "left.displacement[1]: nominal");
-    let twice = |text: &str| replace_once(text, "<Category ", "<Category name=\"logAll\"/><Category ");
-    plant_in_description(twice, lint, "log category \"logAll\": more than once");
     let backwards = |text: &str| replace_once(text, "stopTime=\"20\"", "stopTime=\"-1\"");
     plant_in_description(backwards, lint, "stopTime -1");
     let too_long = |text: &str| replace_once(text, "stepSize=\"0.01\"", "stepSize=\"21\"");
     plant_in_description(too_long, lint, "stepSize 21");
     let unit = |text: &str| replace_once(text, "<Unit name=\"kg\"", "<Unit name=\"slug\"");
     plant_in_description(unit, lint, "unit \"kg\"");
-    let identifier =
-        |text: &str| replace_once(text, "modelIdentifier=\"FeupFrames\"", "modelIdentifier=\"Feup Frames\"");
-    plant_in_description(identifier, lint, "expected a C identifier");
     let alias = |text: &str| {
         let reference = |name: &str| {
             let at = text.find(&format!("name=\"{name}\"")).unwrap();
@@ -91,12 +89,49 @@ fn defects_of_the_description_that_validators_miss() {
         in_variable(text, "left.mass[2]", &quoted(&other), &quoted(&one))
     };
     plant_in_description(alias, lint, "left.mass[2] and left.mass[1]");
-    let order = |text: &str| {
-        let (start, end) = (text.find("<DefaultExperiment").unwrap(), text.find("<ModelVariables").unwrap());
-        let variables = text.find("<UnitDefinitions").unwrap();
-        [&text[..variables], &text[start..end], &text[variables..start], &text[end..]].concat()
+}
+
+/// What is well formed and makes sense, and is not what the scene says.
+#[test]
+fn descriptions_of_another_scene() {
+    let plant = |change: &dyn Fn(&str) -> String, expected| plant_in_description(change, "scene", expected);
+    let plant_text = |old: &str, new: &str, expected| plant(&|text| text.replace(old, new), expected);
+    let (one, two) = ("name=\"left.mass[1]\"", "name=\"left.mass[2]\"");
+    let exchanged = |text: &str| text.replace(one, "name=\"\"").replace(two, one).replace("name=\"\"", two);
+    plant(&exchanged, "ModelVariables/ScalarVariable left.mass[1]: valueReference");
+    plant_text(one, "name=\"left.weight[1]\"", "ModelVariables: ScalarVariable left.weight[1]; expected none");
+    let tunable = "ScalarVariable left.mass[1]: variability \"tunable\"; expected \"fixed\"";
+    plant_text("variability=\"fixed\"", "variability=\"tunable\"", tunable);
+    plant_text("m=\"1\" s=\"-2\"", "m=\"1\" s=\"-1\"", "Unit m/s2/BaseUnit: s \"-1\"; expected \"-2\"");
+    let factor = "Unit kg/DisplayUnit t: factor \"100\"; expected \"0.001\"";
+    plant(&|text| replace_once(text, "name=\"t\" factor=\"0.001\"", "name=\"t\" factor=\"100\""), factor);
+    let minimum = |text: &str| in_variable(text, "left.mass[1]", "min=\"0\"", "min=\"-5\"");
+    plant(&minimum, "ScalarVariable left.mass[1]/Real: min \"-5\"; expected \"0\"");
+    let snapshots = "CoSimulation: canGetAndSetFMUstate \"false\"; expected \"true\"";
+    plant_text("canGetAndSetFMUstate=\"true\"", "canGetAndSetFMUstate=\"false\"", snapshots);
+    plant_text("modelIdentifier=\"Feup", "modelIdentifier=\"Feup ", "modelIdentifier \"Feup Frames\"; expected");
+    let scene = |mut files: Files| {
+        files[2].1 = b"name = 3".to_vec();
+        files
     };
-    plant_in_description(order, lint, "out of order");
+    crate::check::plant(scene, "scene", "resources/scene.toml: name = 3: ");
+}
+
+/// This program does not know what another version of it writes, but whether it is as it was.
+#[test]
+fn a_description_by_another_version_is_that_of_its_guid() {
+    let files = files(feup_fmu());
+    let text = String::from_utf8(files[0].1.clone()).unwrap();
+    let guid = text.split('"').find(|part| part.starts_with('{')).unwrap();
+    let other = text.replace(&format!("pounding-fmu {}", env!("CARGO_PKG_VERSION")), "pounding-fmu 0.0.1");
+    let scene = String::from_utf8(files[2].1.clone()).unwrap();
+    let own = guid_of(&other.replace(guid, ""), &scene, &files[3].1);
+    plant_in_description(|_| other.clone(), "scene", &format!("GUID {guid:?}; expected {own:?}"));
+    let directory = TempDir::new().unwrap();
+    let fmu = directory.path().join("other.fmu");
+    write_fmu(&fmu, &changed_description(|_| other.replace(guid, &own)));
+    let (_, report) = checked(&fmu);
+    assert_eq!(findings(&report, "scene"), "", "{report:#}");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn what_is_written_and_what_the_library_does_is_reported_at_once() {
     for expected in [
         "left.stiffness[1]: start -2910",
         "left.stiffness[1]: start is \\\"-2910\\\", the library has Real(2910.0)",
-        "log category \\\"logEvents\\\": more than once",
+        "LogCategories: no Category logAll",
         "left.mass[1]: no unit",
         "readme.txt\\\": not a file of such an FMU",
     ] {

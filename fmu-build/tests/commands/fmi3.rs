@@ -124,8 +124,10 @@ fn platforms_go_by_both_names_and_arm_needs_no_trick() {
 fn defects_of_the_description() {
     let lint = "description lint";
     let in_description = |old: &'static str, new: &'static str| move |files: &mut Files| change(files, 0, old, new);
-    plant(in_description("name=\"time\"", "clocks=\"3\" name=\"time\""), lint, "no attribute \"clocks\"");
-    plant(in_description("fmiVersion=\"3.0\"", "fmiVersion=\"3.1\""), lint, "expected exactly");
+    plant(in_description("name=\"time\"", "clocks=\"3\" name=\"time\""), "scene", "time: clocks \"3\"; expected none");
+    plant(in_description("fmiVersion=\"3.0\"", "fmiVersion=\"3.1\""), "scene", "fmiVersion \"3.1\"; expected \"3.0\"");
+    let velocity = "left.displacement[1]: declaredType \"Velocity\"; expected \"Length\"";
+    plant(in_description("declaredType=\"Length\"", "declaredType=\"Velocity\""), "scene", velocity);
     plant(in_description("<InitialUnknown ", "<Output "), "description", "initial unknowns");
     plant(in_description("</ModelVariables>", ""), "description", "ModelVariables");
     plant(in_description("causality=\"independent\"", "causality=\"local\""), lint, "expected \"time\" alone");

@@ -254,3 +254,15 @@ fn wrong_usage_has_its_own_exit_code() {
         assert_eq!(stdout(&output), "");
     }
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn help_that_is_lost_is_no_success() {
+    for arguments in [&["--help"][..], &["--version"], &["check", "--help"], &["help", "merge"]] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-fmu"));
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = command.args(arguments).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(stderr(&output).starts_with("error: cannot write to standard output"), "{}", stderr(&output));
+    }
+}

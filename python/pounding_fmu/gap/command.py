@@ -10,7 +10,7 @@ from pathlib import Path
 from statistics import fmean
 
 from .. import _native, _terminal
-from .._scenes import warn
+from .._scenes import read_file, warn
 from .search import Cost, RequiredGap, Search
 
 ABOUT = """\
@@ -48,6 +48,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.csv", help="the table as a file, too")
     options = parser.parse_args(argv)
     _native.spare([("-o", options.output)], [options.scene], options.records or [])
+    read_file(options.scene)
     progress = _terminal.Progress("runs")
     search = Search(options.scene, options.records, options.pga, options.force, options.workers, progress)
     warn(search.warnings)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _native
 from .._batch import simulate_batch
-from .._scenes import SceneWarning, read_scene, refuse, variables_of
+from .._scenes import SceneWarning, path_of, read_scene, refuse, variables_of
 from ..study.records import label, named, read_records
 
 if TYPE_CHECKING:
@@ -112,11 +112,12 @@ class Search:
         progress: Callable[[int, int], object] | None,
     ) -> None:
         self.scene, self.force, self.threads, self.progress = scene, force, threads, progress
-        read = read_scene(scene)
+        read, path = read_scene(scene), path_of(scene)
+        where = f"{path}: " if path else ""
         self.warnings, self.modes, self.layout = read.warnings(), read.first_modes(), json.loads(read.layout())
         self.is_linked = bool(self.layout["links"])
         self.is_joined = any(link["left"]["kind"] == link["right"]["kind"] == "floor" for link in self.layout["links"])
-        self.motions = _motions(read, records, None if pga is None else [float(value) for value in pga])
+        self.motions = _motions(read, where, records, None if pga is None else [float(value) for value in pga])
         self.names = list(variables_of(read))
         self.contacts = range(1, len(self.layout["contacts"]) + 1)
         self.on_soil = any(self.layout[side]["foundation"] for side in ("left", "right"))
@@ -128,8 +129,8 @@ class Search:
             for side in ("left", "right")
             if (names := [name for name in self.names if name.startswith(f"{side}.peak_drift[")])
         }
-        found = ["expected a scene with contacts"] * (not self.contacts)
-        found += ["expected a scene with peaks: outputs.peaks = true"] * (not self.peaks)
+        found = [f"{where}expected a scene with contacts"] * (not self.contacts)
+        found += [f"{where}expected a scene with peaks: outputs.peaks = true"] * (not self.peaks)
         if force is not None:
             found += [f"force = {force!r}: expected a number of N > 0"] * (not 0.0 < force < math.inf)
             rigid = [p for p in self.contacts if f"contact[{p}].stiffness" not in self.names]
@@ -285,7 +286,7 @@ def correlation(one: tuple[float, float], other: tuple[float, float]) -> float:
     return above / below if below else 1.0
 
 
-def _motions(read: _native.Scene, records: Any, pga: list[Any] | None) -> list[Motion]:
+def _motions(read: _native.Scene, where: str, records: Any, pga: list[Any] | None) -> list[Motion]:
     """Every record at every intensity, or all that is wrong with them."""
     problems = [f"pga: {peak!r}: expected a number of m/s2 > 0" for peak in pga or [] if not 0.0 < peak < math.inf]
     problems += ["pga: expected at least one"] * (pga == [])
@@ -293,7 +294,7 @@ def _motions(read: _native.Scene, records: Any, pga: list[Any] | None) -> list[M
     if records is not None:
         found = read_records(named(records), problems)
     else:
-        problems += ["the scene has no record: expected records"] * (own is None)
+        problems += [f"{where}the scene has no record: expected records"] * (own is None)
         found = {own.name: own} if own else {}
     refuse(problems)
     return [Motion(label(key), record, read, peak) for key, record in found.items() for peak in pga or [None]]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from .. import _native
 from .._extras import require
-from .._scenes import positive, read_record, read_scene, warn
+from .._scenes import positive, read_file, read_record, warn
 from .style import FORMATS, LOOK, picture_file, save
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def runs_of(options: argparse.Namespace) -> Runs:
     """What the options of a run say."""
     from .runs import Runs
 
-    scene = read_scene(options.scene)
+    scene = read_file(options.scene)
     if options.record is not None:
         scene = scene.with_record(read_record(options.record, "record"))
     stop = scene.stop() if options.stop is None else positive("stop", options.stop)

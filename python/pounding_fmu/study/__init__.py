@@ -23,8 +23,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import _native
 from .._data import DATA
-from .._scenes import refuse, unknown, warn
+from .._scenes import SECONDS, by_name, refuse, unknown, warn
 from .cases import NEVER_CLOSES, Row, varied_text
 
 if TYPE_CHECKING:
@@ -153,7 +154,7 @@ def run_study(
     from .plan import plan
 
     chosen_gaps, chosen_pga = _numbers(gaps, pga, (synthetic, seed, stop, workers))
-    axes = {name: [float(value) + 0.0 for value in values] for name, values in (vary or {}).items()}
+    axes = {name: [float(value) + 0.0 for value in values] for name, values in by_name("vary", vary).items()}
     refuse([f"vary: {name}: expected at least one value" for name, values in axes.items() if not values])
     of_scenes: list[Scene] = [scenes] if isinstance(scenes, (str, os.PathLike, Mapping)) else list(scenes)
     if not of_scenes:
@@ -179,7 +180,7 @@ def _numbers(
     found += [
         f"{name} = {value!r}: expected 0 or more" for name, value in (("synthetic", synthetic), ("seed", seed)) if value < 0
     ]
-    found += [f"stop = {stop!r}: expected a number of seconds > 0"] * (stop is not None and not 0 < stop < float("inf"))
+    found += [f"stop = {stop!r}: expected {SECONDS}"] * (stop is not None and not 0 < stop <= _native.MOST_TIME)
     found += [f"workers = {workers!r}: expected at least one"] * (workers is not None and workers < 1)
     refuse(found)
     return widths, peaks

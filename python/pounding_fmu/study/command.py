@@ -107,7 +107,7 @@ def draw_varied(rows: Sequence[Row], scene: str, options: argparse.Namespace) ->
         values = varied_values(row["varied"])
         others.setdefault(", ".join(f"{name}={values[name]:g}" for name in values if name != first), []).append(row)
     for number, (rest, group) in enumerate(others.items(), 1):
-        path = options.output / (f"varied_{scene}_{number}.png" if rest else f"varied_{scene}.png")
+        path = place(options, f"varied_{scene}_{number}.png" if rest else f"varied_{scene}.png")
         pictures.varied(group, first, f"{scene}, {rest}" if rest else scene, path, (options.show_gaps, options.show_pga))
 
 
@@ -115,17 +115,22 @@ def draw_rows(rows: Sequence[Row], name: str, options: argparse.Namespace) -> No
     """Fragility and pictures of rows that differ in gap, record and intensity, in files of this name."""
     limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
     found = curves(rows, demands(rows, limits), options.intensity)
-    curves_file = options.output / f"fragility_{name}.csv"
-    _native.spare([("-o", curves_file)], options.scenes, options.records or [])
-    write(found, curves_file)
+    write(found, place(options, f"fragility_{name}.csv"))
     if importlib.util.find_spec("matplotlib") is None:
         _terminal.say('no pictures without matplotlib: pip install "pounding-fmu[plot]"')
         return
     from . import pictures
 
     records = len({row["record_id"] for row in rows})
-    pictures.gaps(rows, options.output / f"gaps_{name}.png", options.show_pga)
-    pictures.fragility(found, records, options.output / f"fragility_{name}.png", options.show_gaps)
+    pictures.gaps(rows, place(options, f"gaps_{name}.png"), options.show_pga)
+    pictures.fragility(found, records, place(options, f"fragility_{name}.png"), options.show_gaps)
+
+
+def place(options: argparse.Namespace, name: str) -> Path:
+    """Where a file of the study goes, which is none that it reads."""
+    path: Path = options.output / name
+    _native.spare([("the table", options.output / "results.csv"), ("-o", path)], options.scenes, options.records or [])
+    return path
 
 
 def vary(options: argparse.Namespace) -> dict[str, list[float]]:

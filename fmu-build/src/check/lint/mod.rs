@@ -1,12 +1,10 @@
 //! Rules about what is written in an FMU that the importers and validators at hand do not check: those of FMI, and
 //! what every FMU of ours keeps to so that importers have no trouble with it.
 
-mod attributes;
 mod document;
 mod experiment;
 mod files;
 mod model_structure;
-mod names;
 #[cfg(test)]
 mod tests;
 mod units;
@@ -15,13 +13,10 @@ mod variables;
 use crate::description::Description;
 pub use document::{findings as document, model_identifier, origin, version};
 pub use files::{file_names, files};
-use names::{identifier, repeated};
 
 /// `modelDescription.xml` as the importer has read it; what it does not read is looked at by [`document()`].
 pub fn description(description: &Description) -> Vec<String> {
     let mut findings = experiment::findings(description);
-    findings.extend(identifier(description));
-    findings.extend(repeated("log category", description.log_categories.iter().map(String::as_str)));
     findings.extend(model_structure::findings(description));
     findings.extend(variables::findings(description));
     findings

@@ -58,7 +58,6 @@ fn every_kind_of_damage_is_found() {
         ("min=\"1\" max=\"3\"", "min=\"3\" max=\"1\"", "contact[2].exponent: min 3 is greater than max 1"),
         ("min=\"1\" max=\"3\"", "min=\"one\"", "contact[2].exponent: min \"one\"; expected a number"),
         ("nominal=\"0.01\"", "nominal=\"0\"", "left.displacement[1]: nominal 0"),
-        ("name=\"logStatusError\"", "name=\"logEvents\"", "log category \"logEvents\": more than once"),
         ("stopTime=\"4\"", "stopTime=\"0\"", "DefaultExperiment stopTime 0"),
         ("stopTime=\"4\"", "stopTime=\"inf\"", "DefaultExperiment stopTime \"inf\": expected a finite number"),
         ("stepSize=\"0.01\"", "stepSize=\"4\"", "DefaultExperiment stepSize 4: expected less than the duration 4"),
@@ -85,12 +84,6 @@ fn every_kind_of_damage_is_found() {
         ("<Boolean/>", "<Boolean start=\"false\"/>", "contact[1].active: a start value"),
         ("initial=\"calculated\"", "initial=\"exact\"", "left.displacement[1]: initial"),
         ("causality=\"output\"", "causality=\"independent\"", "left.displacement[1]: an independent variable"),
-        ("</ModelStructure>", "<Derivatives/></ModelStructure>", "<Derivatives>: empty"),
-        ("<LogCategories>", "<TypeDefinitions/><LogCategories>", "<TypeDefinitions>: empty"),
-        ("<LogCategories>", "<Categories/><LogCategories>", "<Categories>: not an element of FMI 2.0"),
-        ("<ModelVariables>", "<DefaultExperiment/><ModelVariables>", "<DefaultExperiment>: more than once"),
-        ("<DefaultExperiment ", "<VendorAnnotations ", "<DefaultExperiment>: missing"),
-        ("<CoSimulation ", "<VendorAnnotations><Tool name=\"a\"/></VendorAnnotations><CoSimulation ", "out of order"),
         ("min=\"0\" max=\"1\"", "min=\"0\" max=\"0.5\"", "contact[1].restitution: start 0.65; expected 0 to 0.5"),
         ("nominal=\"0.01\"", "nominal=\"NaN\"", "left.displacement[1]: nominal NaN"),
         ("nominal=\"0.01\"", "nominal=\"-1\"", "left.displacement[1]: nominal -1"),
@@ -98,7 +91,6 @@ fn every_kind_of_damage_is_found() {
         ("tolerance=\"1e-12\"", "tolerance=\"tight\"", "DefaultExperiment tolerance \"tight\""),
         ("unit=\"m/s2\" displayUnit", "displayUnit", "ground.acceleration: no unit, but display unit \"g\""),
         ("index=\"5\" dependencies=\"2\"", "index=\"5\" dependencies=\"999\"", "999"),
-        ("fmiVersion=\"2.0\"", "fmiVersion=\"2.0.4\"", "fmiVersion \"2.0.4\": expected exactly \"2.0\""),
         (
             "index=\"5\" dependencies=\"2\" dependenciesKind=\"fixed\"",
             "index=\"5\" dependencies=\"2\" dependenciesKind=\"fixed fixed\"",
@@ -109,18 +101,6 @@ fn every_kind_of_damage_is_found() {
         ("name=\"left.displacement[1]\"", "name=\"left.velocity[1]\"", "Duplicate variable name"),
         ("name=\"left.displacement[1]\"", "name=\"left.displacement[1\"", "left.displacement[1"),
         ("variability=\"fixed\"", "variability=\"continuous\"", "left.mass[1]"),
-        (
-            "<ScalarVariable name",
-            "<ScalarVariable colour=\"red\" name",
-            "<ScalarVariable> : no attribute \"colour\" in FMI 2.0",
-        ),
-        ("<Real unit", "<Real colour=\"red\" unit", "<Real> ground.acceleration: no attribute \"colour\" in FMI 2.0"),
-        (
-            "modelIdentifier=\"TwoBuildings\"",
-            "modelIdentifier=\"2Buildings\"",
-            "modelIdentifier \"2Buildings\": expected a C identifier",
-        ),
-        ("modelName=", "generationDateAndTime=\"2020-01-01T00:00:00Z\" modelName=", "generationDateAndTime"),
     ] {
         assert!(text.contains(from), "{from}");
         let found = findings(&text.replacen(from, to, 1));
@@ -132,15 +112,9 @@ fn every_kind_of_damage_is_found() {
 #[test]
 fn every_kind_of_damage_in_fmi3_is_found() {
     let text = package(RECORD_SCENE).model_description(FmiVersion::V3);
-    let of = "in FMUs of ours in FMI 3.0";
-    let alias = "><Alias name=\"a\"/></Float64>";
     for (from, to, finding) in [
-        ("fmiVersion=\"3.0\"", "fmiVersion=\"3.0.2\"", "fmiVersion \"3.0.2\": expected exactly \"3.0\""),
-        ("hasEventMode=\"true\"", "hasEvents=\"true\"", &format!("no attribute \"hasEvents\" {of}")),
-        ("hasEventMode", "needsCompletedIntegratorStep", "no attribute \"needsCompletedIntegratorStep\""),
         ("declaredType=\"Mass\"", "", "left.mass[1]: no declaredType, and so no unit"),
         ("declaredType=\"Mass\"", "declaredType=\"Weight\"", "left.mass[1]: declaredType \"Weight\" is not in"),
-        ("declaredType=\"Mass\"", "declaredType=\"Mass\" unit=\"kg\"", "left.mass[1]: no attribute \"unit\""),
         ("Type name=\"Mass\"", "Type name=\"Weight\"", "type \"Weight\" is not used"),
         ("Type name=\"Mass\"", "Type name=\"Force\"", "type \"Force\": more than once"),
         ("unit=\"kg\" displayUnit=\"t\"", "", "left.mass[1]: no unit"),
@@ -148,25 +122,12 @@ fn every_kind_of_damage_in_fmi3_is_found() {
         ("<Unit name=\"kg\"", "<Unit name=\"slug\"", "left.mass[1]: unit \"kg\" is not in <UnitDefinitions>"),
         ("causality=\"independent\"", "causality=\"local\"", "independent variables: []; expected \"time\" alone"),
         ("name=\"time\"", "name=\"t\"", "independent variables: [\"t\"]"),
-        ("name=\"left.mass[1]\"", "clocks=\"1\" name=\"left.mass[1]\"", "left.mass[1]: no attribute \"clocks\""),
         ("name=\"time\"", "intermediateUpdate=\"true\" name=\"time\"", "time: intermediateUpdate true; expected false"),
         (" intermediateUpdate=\"true\"", "", "intermediateUpdate false; expected true"),
-        ("declaredType=\"Time\"/>", &format!("declaredType=\"Time\"{alias}"), &format!("<Alias> a: no element {of}")),
-        ("declaredType=\"Time\"/>", "><Dimension start=\"2\"/></Float64>", "<Dimension> time: no element"),
-        (
-            "<ModelVariables>",
-            "<ModelVariables><Clock name=\"c\" valueReference=\"999\" intervalVariability=\"triggered\"/>",
-            "<Clock> c: no element",
-        ),
         ("<Int32 ", "<Int64 ", "of type Int64; expected a type that FMUs of ours have"),
-        ("<InitialUnknown ", "<EventIndicator ", "<EventIndicator> : no element"),
-        ("<ModelStructure>", "<Annotations/><ModelStructure>", "out of order"),
-        ("<TypeDefinitions>", "<TypeDefinitions/><TypeDefinitions>", "<TypeDefinitions>: more than once"),
         ("<Output valueReference=\"", "<Output valueReference=\"99", "expected set"),
         ("initial=\"calculated\"", "initial=\"exact\"", "no start value"),
-        ("modelName=", "generationDateAndTime=\"2020-01-01T00:00:00Z\" modelName=", "generationDateAndTime"),
         ("<Start value=\"\"/>", "", "ground.record"),
-        ("instantiationToken", "guid", "no attribute \"guid\""),
     ] {
         assert!(text.contains(from), "{from}");
         let found = findings(&text.replacen(from, to, 1));
@@ -188,10 +149,8 @@ fn every_finding_comes_at_once() {
     let changes = [
         ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65"),
         ("stopTime=\"4\"", "stopTime=\"0\"", "DefaultExperiment stopTime 0"),
-        ("name=\"logStatusError\"", "name=\"logEvents\"", "log category \"logEvents\""),
         ("unit=\"kg\"", "", "left.mass[1]: no unit"),
         ("<Unknown index=\"3\"", "<Unknown index=\"5\"", "expected ascending"),
-        ("<Real unit", "<Real colour=\"red\" unit", "colour"),
     ];
     let found = findings(&changes.iter().fold(text, |text, (from, to, _)| text.replacen(from, to, 1)));
     for (.., expected) in changes {

@@ -1,6 +1,5 @@
 //! Units: every number has one that is defined, and every one is that of a number.
 
-use super::names::repeated;
 use pounding::FmiVersion;
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
@@ -79,4 +78,10 @@ fn numbers_of_fmi3<'a, 'd>(document: &'a Document<'d>) -> (Vec<Number<'a, 'd>>, 
 
 fn name<'a>(node: &Node<'a, '_>) -> &'a str {
     node.attribute("name").unwrap_or_default()
+}
+
+/// A finding for every name that has been there before.
+fn repeated<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut seen = HashSet::new();
+    names.filter(|name| !seen.insert(*name)).map(|name| format!("{what} {name:?}: more than once")).collect()
 }
