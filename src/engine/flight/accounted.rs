@@ -7,15 +7,21 @@ use crate::engine::system::System;
 use crate::structure::PIECE_ANGLE;
 
 /// Largest number of pieces of one flight; a longer flight takes several steps, unless its motion has died out.
-pub const MOST_PIECES: f64 = 10_000.0;
+const MOST_PIECES: f64 = 10_000.0;
+
+/// Number of pieces up to which a flight of modes that damping does not couple takes less work by pieces than as a whole.
+const FEW_PIECES: u64 = 100;
 
 /// Share of the largest energy so far below which the energy that damping can still dissipate is negligible.
 const QUIET: f64 = 1e-20;
 
 impl System {
-    /// Number of pieces, each within reach of one series, of a flight of that length, s.
-    pub fn pieces(&self, length: f64) -> u64 {
-        (self.structure.in_flight().fastest * length / PIECE_ANGLE).ceil().max(1.0) as u64
+    /// Number of pieces, each within reach of one series, of a flight of that length, s; `None` if its work takes less as a whole.
+    pub fn pieces(&self, length: f64) -> Option<u64> {
+        let pieces = (self.structure.in_flight().fastest * length / PIECE_ANGLE).ceil().max(1.0) as u64;
+        let is_long = length > self.longest_pieces();
+        let is_sooner_whole = pieces > FEW_PIECES && self.structure.is_classical() && !self.floor_forces;
+        (!is_long && !is_sooner_whole).then_some(pieces)
     }
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
