@@ -54,7 +54,6 @@ fn a_search_needs_no_matrix_for_each_instant() {
         CALLS.get() - before
     });
     // Measured: 18,790 and 21,468; a matrix takes some hundred, and each read has its own for what is shown.
-    eprintln!("CALLS {calls:?}");
     assert!(calls[1] < calls[0] + calls[0] / 2, "{calls:?}");
 }
 
