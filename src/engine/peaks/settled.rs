@@ -117,11 +117,11 @@ fn unsettle(block: &RowBlock, [q, v]: [&[f64]; 2], [left_q, left_v]: [&[f64]; 2]
         let term = of(m, [q, v]);
         (0..LANES).for_each(|i| whole[i] += term[i]);
     }
-    for m in 0..q.len() {
+    for (m, creep) in creeps.iter_mut().enumerate() {
         let left = of(m, [left_q, left_v]);
         // Written so that a NaN never counts as settled.
         if !(0..LANES).all(|i| left[i] <= ROUNDING * whole[i]) {
-            creeps[m] = f64::NAN;
+            *creep = f64::NAN;
         }
     }
 }
