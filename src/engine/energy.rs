@@ -7,7 +7,6 @@ use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
-use crate::engine::flight::accounted::MOST_PIECES;
 use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
 use crate::engine::step::{Dense, Step};
@@ -122,7 +121,7 @@ impl System {
             return;
         }
         self.settle(base, (waiting, work));
-        counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
+        counters.energy_steps += if step.is_flight() { self.pieces(length).unwrap_or(1) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
         let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.account.modal);
@@ -286,17 +285,16 @@ impl System {
     fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Buffers, length: f64, done: &mut Work) {
         // The account needs fewer digits than the motion, which does not depend on it.
         const REMAINDER: f64 = 1e-16;
-        let (pieces, flying) = (self.pieces(length), self.structure.in_flight());
-        let h = length / pieces as f64;
-        let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
-        if length > self.longest_pieces() {
+        let Some(pieces) = self.pieces(length) else {
             let largest = base.energy.map_or(0.0, |account| account.largest);
             return match self.is_quiet(base, (&work.load, &work.slope), largest) {
                 true => self.integrate_quiet_flight(base, work, length, done),
                 false => self.integrate_long_flight(base, work, length, done),
             };
-        }
+        };
+        let (flying, h) = (self.structure.in_flight(), length / pieces as f64);
+        let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         work.q.copy_from_slice(&base.q);
         work.v.copy_from_slice(&base.v);
         let mut series = std::mem::take(&mut work.series);

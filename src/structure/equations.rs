@@ -409,7 +409,7 @@ fn subtract_product(matrix: &[f64], factor: f64, vector: &[f64], out: &mut [f64]
 /// Modal vectors for intermediate results.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    y: Vec<f64>,
+    pub(super) y: Vec<f64>,
     jerk: Vec<f64>,
     pub(super) ahead: Vec<f64>,
 }

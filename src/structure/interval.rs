@@ -94,6 +94,21 @@ impl Interval {
         }
     }
 
+    /// The same under the load that has grown from another one for `time` seconds.
+    pub fn fly_from(
+        &self,
+        time: f64,
+        motion: (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        end: (&mut [f64], &mut [f64]),
+        scratch: &mut Scratch,
+    ) {
+        let mut grown = std::mem::take(&mut scratch.y);
+        grown.iter_mut().zip(load.iter().zip(slope)).for_each(|(grown, (load, slope))| *grown = load + slope * time);
+        self.fly(motion, (&grown, slope), end, scratch);
+        scratch.y = grown;
+    }
+
     /// The same under the ground's acceleration and its slope alone, where damping couples no modes. Returns whether the
     /// end is finite.
     #[inline(always)]

@@ -252,6 +252,20 @@ fn stiff_slow_and_coupled_buildings_have_the_peaks_of_a_dense_reading() {
     }
 }
 
+/// A lowest storey that makes a mode up to a million times as fast as the others, which swings, settles or creeps.
+#[test]
+fn modes_that_settle_leave_the_peaks_of_a_dense_reading() {
+    for (stiffness, damping) in
+        [("1e11", "ratio = 0.02"), ("1e14", "ratio = 0.2"), ("1e14", "rayleigh = { ratio = 0.03, modes = [1, 2] }")]
+    {
+        let storeys =
+            format!("mass = [1e4, 1e4, 9e3]\nstiffness = [{stiffness}, 3e7, 2e7]\ndamping = {{ {damping} }}\n");
+        let text = format!("name = \"Stiff\"\n[left]\n{storeys}{}", frame("right", 1, 1e4, 4.0, 0.03));
+        let what = format!("{stiffness} N/m, {damping}");
+        compare(&what, &with_record(&text), Some(&shaking(0.02, 100, 5.0)), 2.5, 20_000);
+    }
+}
+
 /// A record as an input that is linear from one communication point to the next has the same peaks, and so has one cut finer.
 #[test]
 fn peaks_under_inputs_are_those_under_a_record() {

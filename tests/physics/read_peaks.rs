@@ -7,6 +7,7 @@ use crate::common::{Run, record, scene};
 use crate::peaks_whenever::Sequence;
 use pounding::engine::{PeakOf, Side};
 use pounding::record::Record;
+use pounding::scene::Scene;
 use std::f64::consts::PI;
 
 const PLASTIC_ROOF: &str = include_str!("../problems/peaks/perfectly_plastic_roof.toml");
@@ -14,6 +15,7 @@ const DAMPED_ENTRY: &str = include_str!("../problems/peaks/damped_entry_while_yi
 const PRESSED_AND_MOVING: &str = include_str!("../problems/peaks/pressed_and_moving.toml");
 const PRESSED_AT_REST: &str = include_str!("../problems/peaks/pressed_at_rest.toml");
 const STIFF_ON_SOIL: &str = include_str!("../problems/peaks/stiff_contacts_on_soil.toml");
+const LONG_FLIGHT: &str = include_str!("../problems/peaks/long_coupled_flight.toml");
 const MOVING_IN_CONTACT: &str = include_str!("../problems/peaks/moving_in_contact.toml");
 
 fn el_centro() -> Record {
@@ -29,11 +31,15 @@ fn uneven() -> Record {
 /// The scene in steps of several lengths to `stop`, s, and with a record, whose steps are the engine's own, in one step too:
 /// the same bits of every peak.
 fn check(text: &str, record: Option<&Record>, stop: f64) {
+    check_scene(&scene(text), record, stop);
+}
+
+fn check_scene(scene: &Scene, record: Option<&Record>, stop: f64) {
     let bits = |run: &Run| all(run).into_iter().flatten().map(|read| read.peak.to_bits()).collect::<Vec<_>>();
-    let mut leap = Run::new(&scene(text), record);
+    let mut leap = Run::new(scene, record);
     let expected = bits(leap.to(stop));
     for step in [0.001, 0.00037, 0.01] {
-        let (mut run, mut watch) = (Run::new(&scene(text), record), Watch::default());
+        let (mut run, mut watch) = (Run::new(scene, record), Watch::default());
         run.model.observe(&run.state, &mut run.point);
         watch.look(&run).unwrap();
         for k in 1..=(stop / step).ceil() as u32 {
@@ -42,6 +48,33 @@ fn check(text: &str, record: Option<&Record>, stop: f64) {
         }
         assert!(record.is_none() || bits(&run) == expected, "other peaks in steps of {step} s");
     }
+}
+
+/// Storeys so stiff that a mode is up to a million times as fast as the others, and dies out or creeps.
+#[test]
+fn modes_that_settle_have_the_peaks_of_every_step() {
+    for (stiffness, damping) in [
+        (1e11, "ratio = 0.05"),
+        (1e14, "ratio = 0.02"),
+        (1e16, "rayleigh = { ratio = 0.05, modes = [1, 2] }"),
+        (1e12, "rayleigh = { ratio = 0.05, modes = [1, 2] }"),
+    ] {
+        let building = |first: f64| {
+            format!("mass = [1e5, 1e5, 8e4]\nstiffness = [{first:e}, 9e7, 8e7]\ndamping = {{ {damping} }}\n")
+        };
+        let text = format!("name = \"Stiff\"\n[left]\n{}[right]\n{}", building(stiffness), building(1e8));
+        let mut scene = scene(&text);
+        scene.ground.record = Some("r.csv".into());
+        check_scene(&scene, Some(&el_centro()), 0.6);
+    }
+}
+
+/// One flight of 5 s of modes that damping couples.
+#[test]
+fn a_long_flight_has_the_peaks_of_every_step() {
+    let mut scene = scene(LONG_FLIGHT);
+    scene.ground.record = Some("r.csv".into());
+    check_scene(&scene, Some(&Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.3] }), 1.2);
 }
 
 /// A contact closes while a storey yields, without the double series of an entry: just after it the power series of a damped

@@ -2,6 +2,7 @@
 
 use crate::engine::base::peaks::Peaks;
 use crate::engine::peaks::ahead::FlightsAhead;
+use crate::engine::peaks::begun::BegunFlight;
 use crate::engine::peaks::room::PeakRoom;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
@@ -103,6 +104,8 @@ pub(crate) struct PointPeaks {
     pub steps: u64,
     /// The flights that are expected next, where peaks are read often.
     pub ahead: FlightsAhead,
+    /// The flight that has begun.
+    pub begun: BegunFlight,
     /// The displacements relative to the position of rest at the start of the step.
     pub q: Vec<f64>,
     pub work: Option<Box<(Buffers, PeakRoom)>>,

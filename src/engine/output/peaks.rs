@@ -8,6 +8,7 @@ use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
 use crate::engine::peaks::ahead::FlightsAhead;
+use crate::engine::peaks::begun::BegunFlight;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
@@ -15,6 +16,13 @@ use crate::engine::step::StepKind;
 
 /// Number of flights from one read to the next up to which it is worth looking ahead.
 const OFTEN: usize = 4;
+
+impl Point {
+    /// Number of motions within flights that have been worked out for peaks.
+    pub fn motions_searched(&self) -> u64 {
+        self.peaks.borrow().work.as_ref().map_or(0, |room| room.1.motions)
+    }
+}
 
 impl Instant<'_> {
     /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks.
@@ -44,7 +52,7 @@ impl Model {
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
         self.fold_into_point(state, known, work);
-        let PointPeaks { peaks, q, folded, ahead, .. } = known;
+        let PointPeaks { peaks, q, folded, ahead, begun, .. } = known;
         peaks.clone_from(folded);
         let elapsed = state.since_base();
         match () {
@@ -58,7 +66,7 @@ impl Model {
                 }
                 self.peaks().raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
             }
-            _ => self.read_peaks_of_flight(state, (point, elapsed), ahead, peaks, work),
+            _ => self.read_peaks_of_flight(state, (point, elapsed), (ahead, begun), peaks, work),
         }
         known.work = Some(room);
     }
@@ -94,14 +102,15 @@ impl Model {
         &self,
         state: &State,
         (point, elapsed): (&Point, f64),
-        ahead: &FlightsAhead,
+        (ahead, begun): (&FlightsAhead, &mut BegunFlight),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
         let State { base, inputs, .. } = state;
         let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let loads = [Load { acceleration, slope, length: elapsed }];
         let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
+        let load_over = |length: f64| [Load { acceleration, slope, length }];
+        let loads = load_over(elapsed);
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         if ahead.stay_below(&part, &base.rest.watched, peaks) {
             return;
@@ -109,12 +118,21 @@ impl Model {
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
         let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
-        self.peaks().with_flight(base, inputs, (length, &q, &v), work, |whole, work| match is_folded {
-            true => self.peaks().fold(&part, whole.rest, Some(whole), peaks, work),
-            false => {
-                let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
-                self.peaks().check_blocks(&part, peaks, work);
+        let finder = self.peaks();
+        let raise = |whole: &Stretch, length: f64, end: (&[f64], &[f64]), peaks: &mut Peaks, work: &mut PeakWork| {
+            match is_folded {
+                true => finder.fold(
+                    &Flights { loads: &load_over(length), end, ..part },
+                    whole.rest,
+                    Some(whole),
+                    peaks,
+                    work,
+                ),
+                false => finder.check_blocks(&Stretch { end, length, whole: Some(whole), ..*whole }, peaks, work),
             }
+        };
+        finder.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
+            finder.raise_over_begun((base, begun), (whole, elapsed, end), (peaks, work), raise);
         });
         (work.buffers.q, work.buffers.v) = (q, v);
     }

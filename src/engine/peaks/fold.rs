@@ -176,7 +176,7 @@ impl PeakFinder<'_> {
         }
         let (start, end) = (flights.motion(flight), flights.motion(flight + 1));
         self.search_stretch(
-            &Stretch { start, end, loads, rest, ground, length, is_suspect: true, whole },
+            &Stretch { start, end, loads, rest, ground, length, is_suspect: true, searched: 0.0, whole },
             survivors,
             peaks,
             work,

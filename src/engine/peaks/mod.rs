@@ -8,12 +8,13 @@
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
 //! series in time ([`reading`]); steps in contact wait for that in a log of their own ([`step_log`]).
 //!
-//! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
-//! these and the part of the planned step so far are added when a peak is read; where peaks are read often, the next flights
-//! are bounded ahead of time ([`ahead`]). Velocities jump in an impact of `stereomechanical`: the motion before and after
-//! counts, the impulse itself, in which accelerations are unbounded, does not.
+//! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and these and the
+//! part of the planned step so far are added when a peak is read. Where peaks are read often, the next flights are bounded ahead
+//! of time ([`ahead`]), and what has been searched of a long flight is kept ([`begun`]). Velocities jump in an impact of
+//! `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
 pub mod ahead;
+pub mod begun;
 pub mod contact;
 mod excess;
 pub mod flight;
@@ -26,6 +27,7 @@ pub mod reading;
 pub mod rest;
 pub mod room;
 pub mod search;
+mod settled;
 pub mod step_log;
 
 use crate::engine::base::Base;
@@ -142,7 +144,10 @@ impl PeakFinder<'_> {
         let loads = (&load[..], &slope[..]);
         let (start, is_suspect) = ((&base.q[..], &base.v[..]), false);
         let rest = &base.rest.watched;
-        then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_suspect, whole: None }, work);
+        then(
+            &Stretch { start, end: (q, v), loads, rest, ground, length, is_suspect, searched: 0.0, whole: None },
+            work,
+        );
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }

@@ -110,12 +110,16 @@ pub struct PeakRoom {
     pub suspects: Vec<Suspect>,
     /// q and v at times of the flight that is searched: several quantities need those at the same halvings.
     pub flown: Latest<[Vec<f64>; 2]>,
+    /// Number of motions that have been worked out there, of all flights.
+    pub motions: u64,
     /// Exact flights over the first parts of flights: those of equal lengths have the same parts.
     pub parts: Latest<Interval>,
     /// q and v at the start and at the end of a piece.
     pub pieces: [Vec<f64>; 4],
     /// The modal load at the start of a piece.
     pub load: Vec<f64>,
+    /// For each mode that has settled in a piece, the rate at which it creeps, 1/s; NaN for all others (`settled.rs`).
+    pub creeps: Vec<f64>,
     /// A row over the motion and one over its rate.
     pub rows: [Vec<f64>; 2],
     /// For each watched quantity, the part of an acceleration by floor forces at the start of a flight, m/s2, and its
@@ -151,9 +155,11 @@ impl PeakRoom {
             piece: ModeBounds::new(lanes),
             suspects: Vec::with_capacity(rows.blocks() * LANES),
             flown: Latest::new([(); 2].map(|()| vec![0.0; lanes]), if rows.are_none() { 0 } else { MOST_FLOWN }),
+            motions: 0,
             parts: Latest::new(Interval::room(structure), if rows.are_none() { 0 } else { MOST_PARTS }),
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
+            creeps: vec![f64::NAN; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
             direct: vec![[0.0; 2]; rows.blocks() * LANES],
             floors: FloorRoom::new(lanes),

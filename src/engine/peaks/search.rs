@@ -6,14 +6,14 @@ use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
-use crate::engine::peaks::room::{LEAVES, PeakWork, Suspect};
+use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, LANES, Lane, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, Scratch, Structure, flight_order};
 
 /// Largest (fastest rate) x (time), rad, of a leaf: its series has no more than [`MAX_ORDER`] powers.
-const LEAF_ANGLE: f64 = 2.7;
+pub(super) const LEAF_ANGLE: f64 = 2.7;
 
 /// The same of a piece, from which on it is worth bounding the amplitudes at its start.
 const LONG: f64 = 40.0 * LEAF_ANGLE;
@@ -26,13 +26,15 @@ const MOST_HALVINGS: u32 = 40;
 
 /// A piece of a flight, from one time since its start to another, s, in which quantities of one body are searched.
 #[derive(Clone, Copy)]
-struct Piece {
-    from: f64,
-    to: f64,
+pub(super) struct Piece {
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// The number of times that it may be halved.
     halvings: u32,
     /// The fastest rate of the body's modes, 1/s.
     fastest: f64,
+    /// Whether that is the fastest of those which have not settled, as the room notes them (`settled.rs`).
+    is_settled: bool,
 }
 
 impl Piece {
@@ -78,7 +80,7 @@ impl PeakFinder<'_> {
         for of_body in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
             let modes = &self.watched.in_flight().bodies[self.body_of(&of_body[0])].modes;
             let fastest = self.system.structure.in_flight().fastest_of(modes.clone());
-            let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest };
+            let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest, is_settled: false };
             if whole.angle() > LEAF_ANGLE {
                 self.bound_bends(of_body, &work.peaks.bounds);
             }
@@ -92,7 +94,7 @@ impl PeakFinder<'_> {
     /// quantities that the amplitudes at its start do not keep below their peaks.
     fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let halvings = piece.halvings;
-        if piece.from >= until {
+        if piece.from >= until || piece.to <= flight.searched {
             return;
         }
         // Those that are cleared here are open again in the next piece.
@@ -105,7 +107,12 @@ impl PeakFinder<'_> {
         if are_any_left(suspects) && piece.angle() > LONG && halvings > 0 {
             self.clear_by_amplitudes(flight, piece, suspects, work);
             self.clear_by_chords(flight, piece, until, suspects, work);
-            if are_any_left(suspects) {
+            let fastest =
+                if are_any_left(suspects) { self.find_settled(flight, piece, suspects, work) } else { piece.fastest };
+            let settled = Piece { fastest, is_settled: true, ..piece };
+            if are_any_left(suspects) && settled.angle() <= LONG {
+                self.search_leaves(flight, settled, until, suspects, work);
+            } else if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_piece(flight, half, until, suspects, work));
             }
         } else if are_any_left(suspects) {
@@ -117,7 +124,7 @@ impl PeakFinder<'_> {
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at ends of leaves first: then few
     /// leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        if piece.from >= until {
+        if piece.from >= until || piece.to <= flight.searched {
             return;
         }
         if piece.angle() > LEAVES as f64 * LEAF_ANGLE && piece.halvings > 0 {
@@ -278,7 +285,7 @@ impl PeakFinder<'_> {
     }
 
     /// The body and the block of a quantity.
-    fn block_of(&self, place: usize) -> (&BodyRows, &RowBlock) {
+    pub(super) fn block_of(&self, place: usize) -> (&BodyRows, &RowBlock) {
         self.watched.in_flight().block_of(place)
     }
 
@@ -326,10 +333,34 @@ impl PeakFinder<'_> {
             (load, flight.loads.1),
             (leaf.to - leaf.from, order),
         );
+        if leaf.is_settled {
+            self.expand_settled(modes.0..modes.1, flight.loads.1, work);
+        }
+    }
+
+    /// The end of the last piece that lies in the first `until` seconds of a flight, s, of those that are searched together.
+    pub(super) fn end_of_pieces(&self, flight: &Stretch, until: f64) -> f64 {
+        let fastest = self.system.structure.in_flight().fastest;
+        let mut piece = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest, is_settled: false };
+        while piece.angle() > LONG && piece.halvings > 0 {
+            let [first, second] = piece.halves();
+            piece = if second.from <= until { second } else { first };
+        }
+        piece.from
+    }
+
+    /// Writes the motion at such a time of a flight that is about to be searched.
+    pub(super) fn fly_within(&self, flight: &Stretch, time: f64, [q, v]: &mut [Vec<f64>; 2], work: &mut PeakWork) {
+        work.peaks.start_flight();
+        self.fly_to(flight, time, [0, 1], work);
+        q.clone_from(&work.peaks.pieces[0]);
+        v.clone_from(&work.peaks.pieces[1]);
     }
 
     /// Works out the motion at a time of a flight in two of the vectors `pieces`.
     fn fly_to(&self, flight: &Stretch, time: f64, into: [usize; 2], work: &mut PeakWork) {
+        let moving = self.system.structure.in_flight();
+        let by_halves = !moving.is_classical() && moving.fastest * flight.length > LEAVES as f64 * LEAF_ANGLE;
         let PeakWork { buffers: Buffers { scratch, .. }, peaks } = work;
         let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else { return };
         let known = match time {
@@ -337,10 +368,13 @@ impl PeakFinder<'_> {
             _ if time == flight.length => flight.end,
             _ => {
                 let ([flown_q, flown_v], is_known) = peaks.flown.of(time);
-                if !is_known {
+                peaks.motions += u64::from(!is_known);
+                if !is_known && by_halves {
+                    fly_by_halves(moving, flight, time, (&mut peaks.parts, scratch), [flown_q, flown_v, q, v]);
+                } else if !is_known {
                     let (interval, is_prepared) = peaks.parts.of(time);
                     if !is_prepared {
-                        interval.prepare(self.system.structure.in_flight(), time);
+                        interval.prepare(moving, time);
                     }
                     interval.fly(flight.start, flight.loads, (flown_q, flown_v), scratch);
                 }
@@ -352,7 +386,7 @@ impl PeakFinder<'_> {
     }
 
     /// Works out the modal load at a time of a flight.
-    fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
+    pub(super) fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
         let (start, slope) = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
             *load = start + slope * time;
@@ -360,8 +394,42 @@ impl PeakFinder<'_> {
     }
 
     /// The number of the body to which a quantity belongs.
-    fn body_of(&self, suspect: &Suspect) -> usize {
+    pub(super) fn body_of(&self, suspect: &Suspect) -> usize {
         self.watched.rows.body_of(suspect.place / LANES)
+    }
+}
+
+/// Works out the motion at a time of a flight, which is the end of a piece, in the first two of some vectors, by halves of the
+/// flight, halves of these and so on: where damping couples modes, each length takes a matrix, and all times share these.
+fn fly_by_halves(
+    moving: &Structure,
+    flight: &Stretch,
+    time: f64,
+    (parts, scratch): (&mut Latest<Interval>, &mut Scratch),
+    [q, v, next_q, next_v]: [&mut Vec<f64>; 4],
+) {
+    let (mut from, mut to, mut length) = (0.0, flight.length, flight.length);
+    q.copy_from_slice(flight.start.0);
+    v.copy_from_slice(flight.start.1);
+    while from < time {
+        let middle = from + 0.5 * (to - from);
+        // No more than rounding is left.
+        if middle <= from || middle >= to {
+            return;
+        }
+        length *= 0.5;
+        if middle > time {
+            to = middle;
+            continue;
+        }
+        let (interval, is_prepared) = parts.of(length);
+        if !is_prepared {
+            interval.prepare(moving, length);
+        }
+        interval.fly_from(from, (q, v), flight.loads, (next_q, next_v), scratch);
+        std::mem::swap(q, next_q);
+        std::mem::swap(v, next_v);
+        from = middle;
     }
 }
 

@@ -295,6 +295,7 @@ fn no_quantity_leaves_its_envelope() {
                 ground: (a, s),
                 length,
                 is_suspect: false,
+                searched: 0.0,
                 whole: None,
             };
             let mut bounds = ModeBounds::new(structure.lanes);

@@ -78,6 +78,12 @@ impl MotionSeries {
         &self.coefficients[n * self.lanes..(n + 1) * self.lanes]
     }
 
+    /// Replaces the coefficients of one mode or floor, from power 0 on.
+    pub fn set_terms_of(&mut self, lane: usize, terms: impl Iterator<Item = f64>) {
+        let own = self.coefficients[lane..].iter_mut().step_by(self.lanes);
+        own.zip(terms).take(self.order + 1).for_each(|(own, term)| *own = term);
+    }
+
     /// The coefficients of all powers, block by block.
     #[inline(always)]
     pub fn rows(&self) -> impl Iterator<Item = &[Lane]> {
