@@ -172,6 +172,50 @@ fn a_motion_that_starts_at_its_peak_has_it_at_once() {
     }
 }
 
+/// The contact force is there from the start: no state without it counts.
+#[test]
+fn floors_that_are_pressed_at_the_start_have_the_acceleration_of_that() {
+    let building = |displacement: f64| {
+        format!(
+            "mass = [1e5]\nstiffness = [1e7]\ndamping = {{ ratio = 0.0 }}\ninitial_displacement = [{displacement:?}]\n"
+        )
+    };
+    let contact = "[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\nlaw = \"linear\"\nstiffness = 1e8\n";
+    let scene = scene(&format!(
+        "name = \"P\"\n[left]\n{}initial_velocity = [0.1]\n[right]\n{}{contact}",
+        building(-0.02),
+        building(-0.022)
+    ));
+    let mut run = Run::new(&scene, None);
+    run.to(0.0);
+    // u = -0.02 and -0.022 m, pressed together by 2 mm: a = -100 u -+ 1e3 x 2e-3.
+    assert!(run.peak(PeakOf::Acceleration(Side::Left, 0)) < 1e-14);
+    assert_close(run.peak(PeakOf::Acceleration(Side::Right, 0)), 4.2, 1e-14, "right");
+}
+
+/// The acceleration turns within a short ramp of the record, beside a building whose damping couples modes.
+#[test]
+fn a_ramp_of_any_length_has_the_peaks_of_its_readings() {
+    let scene = with_record(
+        "name = \"R\"\n[left]\nmass = [2725.0]\nstiffness = [497951.0]\ndamping = { ratio = 0.035 }\n\
+         [right]\nmass = [10685.0, 6735.0]\nstiffness = [832163.0, 1079692.0]\n\
+         damping = { dashpots = [3419.0, 2601.0] }\n",
+    );
+    for exponent in 5..=9 {
+        let (start, length) = (0.1358, 0.1_f64.powi(exponent));
+        let times = vec![0.0, start, start + length, 0.3];
+        let record = Record { times, accelerations: vec![-0.28, -0.28, 5.7, 5.7] };
+        let mut run = Run::new(&scene, Some(&record));
+        let mut largest = 0.0_f64;
+        for k in 0..=2000 {
+            run.to(start + length * f64::from(k) / 2000.0);
+            largest = largest.max(run.read(Output::Acceleration(Side::Left, 0)).abs());
+        }
+        let peak = run.peak(PeakOf::Acceleration(Side::Left, 0));
+        assert!((peak - largest).abs() <= 2e-11 * largest, "{length:e} s: {peak}, not {largest}");
+    }
+}
+
 #[test]
 fn peaks_without_contact_are_those_of_a_dense_reading() {
     for (storeys, spacing) in [([1, 2], 0.01), ([2, 3], 0.02), ([5, 7], 0.02), ([1, 1], 0.3), ([3, 20], 0.01)] {

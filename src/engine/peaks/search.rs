@@ -12,6 +12,10 @@ use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
 use crate::structure::{EXACT, Interval, LANES, Lane, Scratch, Structure, flight_order};
 
+/// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
+/// its terms are relative to the jump: 12 leave 5e-14 of that at any length.
+const LEAST_ORDER: usize = 12;
+
 /// Largest (fastest rate) x (time), rad, of a leaf: its series has no more than [`MAX_ORDER`] powers.
 pub(super) const LEAF_ANGLE: f64 = 2.7;
 
@@ -323,7 +327,7 @@ impl PeakFinder<'_> {
     fn expand_leaf(&self, flight: &Stretch, leaf: Piece, modes: (usize, usize), work: &mut PeakWork) {
         self.fly_to(flight, leaf.from, [0, 1], work);
         self.set_load(flight, leaf.from, work);
-        let order = flight_order(leaf.angle(), EXACT).unwrap_or(MAX_ORDER);
+        let order = flight_order(leaf.angle(), EXACT).map_or(MAX_ORDER, |order| order.max(LEAST_ORDER));
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight_of(
