@@ -46,7 +46,7 @@
 //! the same, four rows at a time          cubic.rs          peaks/flight.rs
 //! horizon                                terms.rs          taylor/open_pairs.rs, taylor/switches.rs
 //! ends of series                         terms.rs          taylor/open_pairs.rs; with certificate.rs taylor/exact.rs
-//! chord                                  chord.rs          peaks/excess.rs: all floors over a step in contact;
+//! chord                                  chord.rs          peaks/contact_bounds.rs: all floors over a step in contact;
 //!                                                          peaks/links.rs and peaks/search.rs on their own
 //! span                                   span.rs           peaks/fold.rs: many flights at once
 //! ```

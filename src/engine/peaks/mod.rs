@@ -16,7 +16,7 @@
 pub mod ahead;
 pub mod begun;
 pub mod contact;
-mod excess;
+mod contact_bounds;
 pub mod flight;
 pub mod floors;
 pub mod fold;
