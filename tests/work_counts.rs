@@ -292,7 +292,6 @@ fn a_long_flight_is_searched_once() {
     }
     // Measured: 13,196, of which 762 would do for a single read at the end.
     let motions = run.point.motions_searched();
-
     assert!(motions < 20_000, "{motions}");
 }
 

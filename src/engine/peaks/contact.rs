@@ -270,8 +270,8 @@ impl PeakFinder<'_> {
         }
     }
 
-    /// The largest magnitude of a quantity within a part of a step, or less than its `known` peak if that is larger. Turning
-    /// points are searched for in the whole step, so that each has the same bits whatever part is asked for.
+    /// The largest magnitude of a quantity within a part of a step if it exceeds its `known` peak, or a number up to that peak.
+    /// Turning points are searched for in the whole step, so that each has the same bits whatever part is asked for.
     #[inline(never)]
     fn highest_in_contact(
         &self,

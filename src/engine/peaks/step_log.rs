@@ -17,8 +17,8 @@ use crate::engine::step::{Step, StepKind};
 use crate::engine::system::System;
 use crate::numerics::polynomial::larger;
 
-/// Largest number of steps that wait: with 12, S1 to S3 of the benchmark search 2 to 18 quantities of 57 to 250, with 6 twice to
-/// seven times as many; more spare no search.
+/// Largest number of steps that wait: an impact that raises peaks has about so many, and with a longer log hardly fewer are
+/// searched (S1 to S3 of the benchmark).
 const MOST: usize = 12;
 
 /// The steps that wait.
