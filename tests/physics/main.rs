@@ -5,6 +5,7 @@ mod bilinear;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
+mod dying_out;
 mod flight_work;
 mod impacts;
 mod linear_inputs;

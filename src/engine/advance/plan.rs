@@ -6,6 +6,7 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
+use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::{onset, taylor};
@@ -39,6 +40,7 @@ impl Model {
         let Workspace { buffers, look, .. } = work;
         self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        come_to_rest(at.base, buffers);
         let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
@@ -66,6 +68,9 @@ impl Model {
             return plan_zero_length(at.base, planned, taylor, event);
         }
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        if let Some(closed) = come_to_rest(at.base, buffers) {
+            return plan_zero_length(at.base, planned, taylor, Event::Release(closed));
+        }
         if !is_near_rigid && !at.base.is_yielding() {
             if let Some(windows) = &self.windows
                 && windows.plan(&self.system, at, remaining, planned, (window, &mut taylor.series), (room, buffers))
@@ -94,6 +99,13 @@ impl Model {
         };
         base.contacts.iter().enumerate().position(meets)
     }
+}
+
+/// Lets the base come to rest where its motion has died out and no load in `work` drives it; returns a contact that is to be
+/// released then.
+fn come_to_rest(base: &mut Base, work: &Buffers) -> Option<usize> {
+    let is_driven = work.load.iter().chain(&work.slope).any(|load| *load != 0.0);
+    if is_driven { None } else { base.come_to_rest() }
 }
 
 /// Plans a Taylor step of length 0 for an event at the base.

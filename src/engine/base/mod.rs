@@ -19,6 +19,10 @@ use crate::numerics::sum::Sum;
 use crate::structure::FlightEnergy;
 use serde::{Deserialize, Serialize};
 
+/// The least motion that counts, m and m/s, or the same of modes: smaller ones would leave forces, which grow with powers of it,
+/// fewer digits than double precision has elsewhere, and at last none.
+const LEAST_MOTION: f64 = 1e-250;
+
 /// The coordinates of a vector of motion: floor by floor or mode by mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Coordinates {
@@ -162,6 +166,23 @@ impl Base {
         contact.episode.end = Some(time);
         contact.episode.separation_velocity = -contact.rate;
         on_episode(&contact.episode);
+    }
+
+    /// Comes to rest where a motion that nothing drives has died out; returns a contact that is to be released then.
+    pub(super) fn come_to_rest(&mut self) -> Option<usize> {
+        let Base { contacts, q, v, .. } = self;
+        if !q.iter().chain(&*v).all(|number| number.abs() < LEAST_MOTION) {
+            return None;
+        }
+        q.fill(0.0);
+        v.fill(0.0);
+        for contact in contacts.iter_mut() {
+            contact.rate = 0.0;
+            if contact.penetration.abs() < LEAST_MOTION {
+                contact.penetration = 0.0;
+            }
+        }
+        contacts.iter().position(|contact| contact.in_contact() && !contact.is_held() && contact.penetration == 0.0)
     }
 }
 
