@@ -18,7 +18,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{Counts, FlightWork, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, Motion, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,15 +76,15 @@ impl System {
     /// A motion as that of the modes, where it oscillates; `modal` is memory.
     pub(super) fn motion_of_modes<'a>(
         &self,
-        (oscillates, q, v): (bool, &'a [f64], &'a [f64]),
+        (oscillates, motion): (bool, Motion<'a>),
         [of_q, of_v]: &'a mut [Vec<f64>; 2],
-    ) -> (&'a [f64], &'a [f64]) {
+    ) -> Motion<'a> {
         match self.structure.oscillators().filter(|_| oscillates) {
             Some(oscillators) => {
-                oscillators.to_modes((q, v), (of_q, of_v));
-                (of_q, of_v)
+                oscillators.to_modes(motion, (of_q, of_v));
+                Motion { q: of_q, v: of_v }
             }
-            None => (q, v),
+            None => motion,
         }
     }
 
@@ -117,14 +117,14 @@ impl System {
                 self.settle(base, (waiting, work));
             }
             let load = Load { acceleration: load.0, slope: load.1, length };
-            waiting.push((&base.q, &base.v), load);
+            waiting.push(base.motion(), load);
             return;
         }
         self.settle(base, (waiting, work));
         counters.energy_steps += if step.is_flight() { self.pieces(length).unwrap_or(1) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.account.modal);
+        let Motion { q, v } = self.motion_of_modes((base.oscillates, base.motion()), &mut work.account.modal);
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), q, v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
         base.add_work_of_dashpots(&work.account.dashpots);
@@ -153,7 +153,7 @@ impl System {
         room: &mut WorkRoom,
     ) {
         let Some(ground) = &self.ground else { return };
-        let flights = waiting.flights_from(0, (&[], &[]));
+        let flights = waiting.flights_from(0, Motion::default());
         let mut first = 0;
         for of_length in flights.loads.chunk_by(|one, next| one.length == next.length) {
             let flight = |k: usize| {
@@ -235,10 +235,8 @@ impl System {
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         self.fly_in(base, length, work);
         let modal = &mut work.account.modal;
-        let [from, to] = [(&base.q, &base.v), (&work.q, &work.v)].map(|(q, v)| {
-            let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
-            dot(&self.structure.participation, q)
-        });
+        let [from, to] = [base.motion(), Motion { q: &work.q, v: &work.v }]
+            .map(|motion| dot(&self.structure.participation, self.motion_of_modes((base.oscillates, motion), modal).q));
         done.input -= base.segment.acceleration_at(base.elapsed) * (to - from);
     }
 
@@ -246,7 +244,7 @@ impl System {
     fn integrate_long_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let counts = Counts { above: f64::INFINITY, at_most: 0.0 };
         let load = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let flight = |_| ((&base.q[..], &base.v[..]), load);
+        let flight = |_| (base.motion(), load);
         let of_length = FlightWork::of(&self.structure, length);
         of_length.over_all(&self.structure, (1, flight), counts, &mut work.account, |flight, _| {
             done.input += flight.input;
@@ -299,7 +297,7 @@ impl System {
         work.v.copy_from_slice(&base.v);
         let mut series = std::mem::take(&mut work.series);
         for i in 0..pieces {
-            let start = (work.q.as_slice(), work.v.as_slice());
+            let start = Motion { q: &work.q, v: &work.v };
             series.expand_flight(flying, start, (&work.load, &work.slope), (h, order));
             self.integrate_series(base, &series, (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);

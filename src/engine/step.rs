@@ -13,7 +13,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
-use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
+use crate::structure::{Motion, MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
@@ -161,7 +161,7 @@ impl Step {
         if !(system.flies_in_windows() && is_near) {
             return false;
         }
-        let (from, speed) = if is_start { (&base.q, &base.v) } else { (&planned.q, &planned.v) };
+        let from = if is_start { base.motion() } else { planned.motion() };
         system.load(base, inputs, &mut work.load, &mut work.slope);
         if !is_start {
             work.load.iter_mut().zip(&work.slope).for_each(|(load, slope)| *load += slope * planned.length);
@@ -171,10 +171,10 @@ impl Step {
             let force = if is_start { contact.present_force() } else { contact.branch().value(d, rate) };
             system.push_apart_by(p, base.coordinates, force, &mut work.load);
         }
-        system.accelerate(base.coordinates, (from, speed), &work.load, &mut work.node_q);
+        system.accelerate(base.coordinates, from, &work.load, &mut work.node_q);
         for (m, acceleration) in work.node_q.iter().enumerate() {
-            q[m] = from[m] + time * (speed[m] + 0.5 * time * acceleration);
-            v[m] = speed[m] + time * acceleration;
+            q[m] = from.q[m] + time * (from.v[m] + 0.5 * time * acceleration);
+            v[m] = from.v[m] + time * acceleration;
         }
         true
     }
@@ -207,9 +207,9 @@ impl Step {
         let Some(order) = exact_order(angle) else { return false };
         let end = if self.kind == StepKind::Deferred {
             system.fly_in(base, length, work);
-            (&work.q[..], &work.v[..])
+            Motion { q: &work.q, v: &work.v }
         } else {
-            (&self.planned.q[..], &self.planned.v[..])
+            self.planned.motion()
         };
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;

@@ -11,6 +11,7 @@ use super::bodies::Body;
 use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
+use super::motion::Motion;
 use super::propagator::ModeIncrement;
 use super::series::power::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -141,7 +142,7 @@ impl FlightWork {
             let together = start..count.min(start + ABREAST);
             let coupled = self.over_coupled(together.clone().map(&flight), room);
             for (k, (motion, load)) in together.map(&flight).enumerate() {
-                let mut of_flight = self.over((motion.0.as_chunks().0, motion.1.as_chunks().0), load);
+                let mut of_flight = self.over((motion.q.as_chunks().0, motion.v.as_chunks().0), load);
                 of_flight.input += coupled.input[k];
                 of_flight.viscous += coupled.viscous[k];
                 of_flight.kinetic += coupled.kinetic[k];
@@ -204,7 +205,7 @@ impl FlightEnergy {
     fn raise_to_oscillators(
         &mut self,
         structure: &Structure,
-        motion: (&[f64], &[f64]),
+        motion: Motion,
         Counts { above, at_most }: Counts,
         [q, v]: &mut [Vec<f64>; 2],
     ) {

@@ -4,6 +4,7 @@
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{POLYNOMIAL_TERMS, PolynomialMaker};
+use super::motion::Motion;
 use crate::numerics::polynomial::each;
 use std::array::from_fn;
 
@@ -51,7 +52,7 @@ impl FreeRows {
 
     /// Writes the terms of a pair's distance from power 2 on, m, from the motion at the start, the ground acceleration
     /// there, m/s2, and its slope.
-    pub fn enter(&self, pair: usize, (q, v): (&[f64], &[f64]), (acceleration, slope): (f64, f64), out: &mut [f64]) {
+    pub fn enter(&self, pair: usize, Motion { q, v }: Motion, (acceleration, slope): (f64, f64), out: &mut [f64]) {
         let PairRows { by_motion, by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
         let mut terms = add_up(by_motion, q, v);
         let ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
@@ -112,14 +113,15 @@ mod tests {
         let (acceleration, slope) = (2.5, -40.0);
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
         terms.resize(FreeRows::TERMS, f64::NAN);
-        rows.enter(0, (&q, &v), (acceleration, slope), &mut terms);
+        rows.enter(0, Motion { q: &q, v: &v }, (acceleration, slope), &mut terms);
         let [load, rate] =
             [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
         let (mut end_q, mut end_v) = (vector(0.0), vector(0.0));
         for i in 1..=20 {
             let x = f64::from(i) / 20.0;
             let interval = Interval::new(&structure, x * length);
-            interval.fly((&q, &v), (&load, &rate), (&mut end_q, &mut end_v), &mut Scratch::new(structure.lanes));
+            let scratch = &mut Scratch::new(structure.lanes);
+            interval.fly(Motion { q: &q, v: &v }, (&load, &rate), (&mut end_q, &mut end_v), scratch);
             let value = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
             let exact = dot(&row, &end_q);
             assert!((value - exact).abs() < 2e-13, "{value} instead of {exact} at {x}");

@@ -4,6 +4,7 @@ use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
+use super::motion::Motion;
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The exact flight of all modes over one interval length.
@@ -64,19 +65,19 @@ impl Interval {
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
     /// no modes.
-    pub fn fly_uncoupled(&self, motion: (&[f64], &[f64]), loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
+    pub fn fly_uncoupled(&self, motion: Motion, loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
         fly_modes(&self.modes, motion, loads, end);
     }
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
     pub fn fly(
         &self,
-        (q, v): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
         (load, slope): (&[f64], &[f64]),
         (end_q, end_v): (&mut [f64], &mut [f64]),
         scratch: &mut Scratch,
     ) {
-        fly_modes(&self.modes, (q, v), (load, slope), (end_q, end_v));
+        fly_modes(&self.modes, Motion { q, v }, (load, slope), (end_q, end_v));
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
@@ -98,7 +99,7 @@ impl Interval {
     pub fn fly_from(
         &self,
         time: f64,
-        motion: (&[f64], &[f64]),
+        motion: Motion,
         (load, slope): (&[f64], &[f64]),
         end: (&mut [f64], &mut [f64]),
         scratch: &mut Scratch,
@@ -114,7 +115,7 @@ impl Interval {
     #[inline(always)]
     pub fn fly_on_ground(
         &self,
-        (q, v): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
         (participation, (acceleration, slope)): (&[f64], (f64, f64)),
         (end_q, end_v): (&mut [f64], &mut [f64]),
     ) -> bool {
@@ -165,7 +166,7 @@ fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
     modes: &[ModeIncrements],
-    (q, v): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
     (end_q, end_v): (&mut [f64], &mut [f64]),
 ) -> Lane {

@@ -2,6 +2,7 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
+use super::motion::Motion;
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
@@ -23,7 +24,7 @@ pub fn exact_order(angle: f64) -> Option<usize> {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn fly_in_one_series(
     structure: &Structure,
-    motion: (&[f64], &[f64]),
+    motion: Motion,
     loads: (&[f64], &[f64]),
     (h, order): (f64, usize),
     end: (&mut [f64], &mut [f64]),
@@ -40,7 +41,7 @@ pub fn fly_in_one_series(
 #[inline(always)]
 fn fly<const TERMS: usize>(
     structure: &Structure,
-    (q, v): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
     (h, order): (f64, usize),
     (end_q, end_v): (&mut [f64], &mut [f64]),
@@ -128,10 +129,10 @@ mod tests {
         for angle in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
             let h = angle / structure.fastest;
             let order = exact_order(structure.fastest * h).unwrap();
-            series.expand_flight(&structure, (&q, &v), (&load, &slope), (h, order));
+            series.expand_flight(&structure, Motion { q: &q, v: &v }, (&load, &slope), (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
-            fly_in_one_series(&structure, (&q, &v), (&load, &slope), (h, order), (&mut q1, &mut v1));
+            fly_in_one_series(&structure, Motion { q: &q, v: &v }, (&load, &slope), (h, order), (&mut q1, &mut v1));
             let bits = |q: &[f64], v: &[f64]| q.iter().chain(v).map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{angle}");
         }

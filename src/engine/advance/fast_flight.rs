@@ -190,7 +190,7 @@ fn fly_many<const IS_NOTED: bool>(
 fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &Base, step: &mut Step) -> bool {
     let Some(interval) = ground.prepared(segment) else { return false };
     interval.fly_on_ground(
-        (&base.q, &base.v),
+        base.motion(),
         (&model.system.structure.in_flight().participation, (segment.acceleration_at(0.0), segment.slope)),
         (&mut step.planned.q, &mut step.planned.v),
     )

@@ -5,6 +5,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::excitation::inputs::Inputs;
 use crate::numerics::roots;
+use crate::structure::Motion;
 
 /// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +74,11 @@ impl Planned {
         (self.length, self.event, self.reaches_limit, self.next_length) = (length, event, reaches_limit, next_length);
         self.tracked.fill(None);
         self.ends.clear();
+    }
+
+    /// The motion at the end.
+    pub(crate) fn motion(&self) -> Motion<'_> {
+        Motion { q: &self.q, v: &self.v }
     }
 
     /// Copies the motion at the end of another step, and its length.

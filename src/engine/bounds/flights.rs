@@ -1,6 +1,6 @@
 //! Flights that follow each other, on the ground's motion and under forces on floors.
 
-use crate::structure::Structure;
+use crate::structure::{Motion, Structure};
 
 /// The load of a flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Flights<'a> {
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub loads: &'a [Load],
-    pub end: (&'a [f64], &'a [f64]),
+    pub end: Motion<'a>,
     /// The forces on floors, in scenes that have them.
     pub forces: Option<Forces<'a>>,
 }
@@ -50,7 +50,7 @@ impl<'a> Forces<'a> {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn set_energies(
     Structure { omega2, damping, .. }: &Structure,
-    (q, v): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
     out: &mut [f64],
 ) {
@@ -75,12 +75,12 @@ impl<'a> Flights<'a> {
     }
 
     /// The motion at the start of flight `k`, or at the end of the last one.
-    pub fn motion(&self, k: usize) -> (&'a [f64], &'a [f64]) {
+    pub fn motion(&self, k: usize) -> Motion<'a> {
         if k == self.loads.len() {
             return self.end;
         }
         let range = k * self.lanes..(k + 1) * self.lanes;
-        (&self.q[range.clone()], &self.v[range])
+        Motion { q: &self.q[range.clone()], v: &self.v[range] }
     }
 
     /// The load by the ground's motion in flight `k`; at the end of the last one that of a gap.

@@ -12,7 +12,7 @@
 //! no further tests, nor does one that oscillates for ever without reaching a limit.
 
 use crate::engine::quantities::flight_row::FlightRow;
-use crate::structure::{Body, Structure};
+use crate::structure::{Body, Motion, Structure};
 
 /// Margin for rounding, relative to the terms of a quantity.
 const MARGIN: f64 = 1e-10;
@@ -20,7 +20,7 @@ const MARGIN: f64 = 1e-10;
 /// A modal motion from which a flight begins, under a load that is linear in time.
 pub struct Oscillation<'a> {
     structure: &'a Structure,
-    motion: (&'a [f64], &'a [f64]),
+    motion: Motion<'a>,
     loads: (&'a [f64], &'a [f64]),
     /// Length of the flight, s.
     length: f64,
@@ -31,7 +31,7 @@ impl<'a> Oscillation<'a> {
     /// quasi-static displacement is not worked out.
     pub fn of(
         structure: &'a Structure,
-        motion: (&'a [f64], &'a [f64]),
+        motion: Motion<'a>,
         loads: (&'a [f64], &'a [f64]),
         length: f64,
     ) -> Option<Oscillation<'a>> {
@@ -41,7 +41,7 @@ impl<'a> Oscillation<'a> {
 
     /// Of a mode: quasi-static displacement, its change over the flight, radius of the envelope about it.
     fn of_mode(&self, m: usize) -> [f64; 3] {
-        let ((q, v), (load, slope)) = (self.motion, self.loads);
+        let (Motion { q, v }, (load, slope)) = (self.motion, self.loads);
         let (w2, c) = (self.structure.omega2[m], self.structure.damping[m]);
         if w2 == 0.0 {
             return [0.0; 3];

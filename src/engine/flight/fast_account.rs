@@ -5,7 +5,7 @@ use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::log::FlightLog;
 use crate::engine::system::System;
-use crate::structure::{FlightWork, Lane};
+use crate::structure::{FlightWork, Lane, Motion};
 
 /// What is noted of segments that follow each other.
 pub struct SegmentAccount<'a> {
@@ -58,7 +58,7 @@ impl<'a> SegmentAccount<'a> {
     pub fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
         for log in self.logs.iter_mut().flatten() {
             let of_flight = Load { acceleration: load.0, slope: load.1, length: self.length };
-            log.push((motion.0.as_flattened(), motion.1.as_flattened()), of_flight);
+            log.push(Motion { q: motion.0.as_flattened(), v: motion.1.as_flattened() }, of_flight);
         }
         if let Some(EnergyAccount { work, account, impact }) = &mut self.energy {
             account.add_flight(&work.over(motion, load), *impact);

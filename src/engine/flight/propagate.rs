@@ -4,7 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{Interval, LONGEST_ANGLE, exact_order, fly_in_one_series};
+use crate::structure::{Interval, LONGEST_ANGLE, Motion, exact_order, fly_in_one_series};
 
 /// Up to so many series cost less than matrices and lose no digits.
 const MOST_PIECES: f64 = 32.0;
@@ -26,7 +26,7 @@ impl System {
             interval.prepare(&self.structure, h);
             interval
         });
-        interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
+        interval.fly(base.motion(), (load, slope), (q, v), scratch);
     }
 
     /// The same; leaves the motion in `work.q`, `work.v`.
@@ -45,7 +45,7 @@ impl System {
         interval: &mut Interval,
         end: (&mut [f64], &mut [f64]),
     ) {
-        let start = (&base.q[..], &base.v[..]);
+        let start = base.motion();
         if let Some(prepared) = self.prepared(base, h) {
             return prepared.fly_uncoupled(start, loads, end);
         }
@@ -72,7 +72,7 @@ impl System {
                 .iter_mut()
                 .zip(load.iter().zip(&*slope))
                 .for_each(|(moved, (load, slope))| *moved = load + slope * start);
-            series.expand_flight(&self.structure, (q, v), (moved, slope), (piece, order));
+            series.expand_flight(&self.structure, Motion { q, v }, (moved, slope), (piece, order));
             powers.set(1.0, series.order);
             series.evaluate(powers, q, v);
         }

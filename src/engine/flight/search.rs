@@ -12,7 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, PIECE_ANGLE, difference, flight_order};
+use crate::structure::{EXACT, FreeRows, Motion, PIECE_ANGLE, difference, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -56,8 +56,7 @@ impl Search<'_> {
             let left = remaining - self.look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
-                let (motion, loads) =
-                    ((&self.look.q[..], &self.look.v[..]), (&self.look.load[..], &self.work.slope[..]));
+                let (motion, loads) = (self.look.motion(), (&self.look.load[..], &self.work.slope[..]));
                 if system.envelopes_stay_within(base, motion, loads, left) {
                     return;
                 }
@@ -94,7 +93,7 @@ impl Search<'_> {
                 continue;
             }
             let terms = &mut work.scalar[..FreeRows::TERMS];
-            rows.enter(p, (&base.q, &base.v), ground, terms);
+            rows.enter(p, base.motion(), ground, terms);
             let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row.modes, motion));
             (terms[0], terms[1]) = (moved, moving * rows.length);
             let later: f64 = terms[2..].iter().map(|term| term.abs()).sum();
@@ -128,7 +127,7 @@ impl Search<'_> {
         // Series of oscillators lose a term where their rates enter.
         let order = (order + usize::from(system.structure.oscillators().is_some())).min(MAX_ORDER);
         let Look { from, q, v, load, is_free, .. } = &*look;
-        work.series.expand_flight(flying, (q, v), (load, &work.slope), (length, order));
+        work.series.expand_flight(flying, Motion { q, v }, (load, &work.slope), (length, order));
         let mut first = First::up_to(1.0);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if is_free[p] {
@@ -154,11 +153,11 @@ impl Search<'_> {
     /// Whether both ends of a piece prove that no limit is reached in it; if so, the search moves on to its end.
     fn piece_stays_within(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
-        let (motion, loads) = ((&look.q[..], &look.v[..]), (&look.load[..], &work.slope[..]));
+        let (motion, loads) = (look.motion(), (&look.load[..], &work.slope[..]));
         let deviation = certificate.deviation(system.structure.in_flight(), motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;
-        let ends = [(&look.q[..], &look.v[..]), (&look.end_q, &look.end_v)];
+        let ends = [look.motion(), Motion { q: &look.end_q, v: &look.end_v }];
         let stays_within = |i: usize| look.is_free[i] || system.stays_within(base, i, ends, (length, deviation));
         let all_stay_within = (0..system.limits()).all(stays_within);
         if all_stay_within {

@@ -1,6 +1,7 @@
 //! Working data of the search for an event in a flight.
 
 use crate::engine::base::Base;
+use crate::structure::Motion;
 
 /// The position of the search in the flight; its content means nothing between calls.
 #[derive(Clone, Debug)]
@@ -25,6 +26,10 @@ impl Look {
         let vector = || vec![0.0; lanes];
         let (q, v, load) = (vector(), vector(), vector());
         Look { from: 0.0, q, v, load, end_q: vector(), end_v: vector(), is_free: vec![false; limits] }
+    }
+
+    pub fn motion(&self) -> Motion<'_> {
+        Motion { q: &self.q, v: &self.v }
     }
 
     pub fn start(&mut self, base: &Base, load: &[f64]) {

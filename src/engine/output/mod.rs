@@ -28,6 +28,7 @@ use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
+use crate::structure::Motion;
 use std::cell::Cell;
 
 impl Model {
@@ -55,7 +56,7 @@ impl Model {
             let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
             std::mem::swap(q, of_q);
             std::mem::swap(v, of_v);
-            oscillators.to_modes((of_q, of_v), (q, v));
+            oscillators.to_modes(Motion { q: of_q, v: of_v }, (q, v));
         }
         self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.

@@ -13,6 +13,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::structure::Motion;
 
 /// Number of flights from one read to the next up to which it is worth looking ahead.
 const OFTEN: usize = 4;
@@ -64,7 +65,7 @@ impl Model {
                 for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
                     of.move_rest(point.coordinates, (now, storey), q);
                 }
-                self.peaks().raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
+                self.peaks().raise_over_part((base, step, inputs), (elapsed, Motion { q, v: &point.v }), peaks, work);
             }
             _ => self.read_peaks_of_flight(state, (point, elapsed), (ahead, begun), peaks, work),
         }
@@ -83,7 +84,7 @@ impl Model {
         let steps = &state.work.steps;
         self.peaks().raise_over_log((steps, known.steps), &state.inputs, &mut known.folded, work);
         known.steps = steps.logged();
-        let flights = log.flights_from(known.entries, (&base.q, &base.v));
+        let flights = log.flights_from(known.entries, base.motion());
         let (rest, count) = (&base.rest.watched, flights.loads.len());
         let PointPeaks { folded, peaks, ahead, .. } = known;
         if !self.peaks().fold_expected((&flights, rest), ahead, folded, work) {
@@ -119,19 +120,14 @@ impl Model {
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
         let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
         let finder = self.peaks();
-        let raise = |whole: &Stretch, length: f64, end: (&[f64], &[f64]), peaks: &mut Peaks, work: &mut PeakWork| {
+        let raise = |whole: &Stretch, length: f64, end: Motion, peaks: &mut Peaks, work: &mut PeakWork| {
+            let loads = &load_over(length);
             match is_folded {
-                true => finder.fold(
-                    &Flights { loads: &load_over(length), end, ..part },
-                    whole.rest,
-                    Some(whole),
-                    peaks,
-                    work,
-                ),
+                true => finder.fold(&Flights { loads, end, ..part }, whole.rest, Some(whole), peaks, work),
                 false => finder.check_blocks(&Stretch { end, length, whole: Some(whole), ..*whole }, peaks, work),
             }
         };
-        finder.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
+        finder.with_flight(base, inputs, (length, Motion { q: &q, v: &v }), work, |whole, work| {
             finder.raise_over_begun((base, begun), (whole, elapsed, end), (peaks, work), raise);
         });
         (work.buffers.q, work.buffers.v) = (q, v);

@@ -17,7 +17,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
 use crate::engine::quantities::truncated::{FourModes, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, Motion};
 use std::ops::Range;
 
 /// Flights, and one body's rows to be read over them.
@@ -111,7 +111,7 @@ impl PeakFinder<'_> {
             let [push, rate] = self.pushes(flights, survivor);
             let times = [0.0, flights.load(survivor.flight).length];
             for (end, (flight, time)) in survivor.ends.iter_mut().zip((survivor.flight..).zip(times)) {
-                let (q, v) = flights.motion(flight);
+                let Motion { q, v } = flights.motion(flight);
                 *end = values_of(
                     &rows.blocks[survivor.block - rows.first],
                     &q[rows.modes.clone()],

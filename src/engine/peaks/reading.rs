@@ -16,7 +16,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::MotionSeries;
+use crate::structure::{Motion, MotionSeries};
 
 /// The x at which a step that begins with an entry is first read: at 0 forces of power laws have no finite slope, and the terms
 /// of an onset step are divided by powers of the time.
@@ -36,14 +36,14 @@ pub struct ContactStep<'a> {
     /// Length, s.
     pub length: f64,
     /// q and v at the end, in the coordinates of the base and relative to its position of rest.
-    pub end: (&'a [f64], &'a [f64]),
+    pub end: Motion<'a>,
 }
 
 impl<'a> ContactStep<'a> {
     /// The whole of a step.
     pub fn whole((base, step, inputs): (&'a Base, &'a Step, &'a Inputs), starts: &'a [(f64, f64)]) -> ContactStep<'a> {
         let planned = &step.planned;
-        ContactStep { base, step, inputs, starts, length: planned.length, end: (&planned.q, &planned.v) }
+        ContactStep { base, step, inputs, starts, length: planned.length, end: planned.motion() }
     }
 
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
@@ -133,7 +133,7 @@ impl PeakFinder<'_> {
         step.set_powers(time, &mut powers);
         powers.set_in_time(&step.taylor.series.time_map);
         step.taylor.series.evaluate(&powers, q, v);
-        self.find_floors(base.coordinates, (&base.rest, (q, v)), floors, modal);
+        self.find_floors(base.coordinates, (&base.rest, Motion { q, v }), floors, modal);
         self.soften(base, q, floors);
         if self.system.floor_forces {
             self.add_forces((base, inputs), time, &mut floors.resisted);

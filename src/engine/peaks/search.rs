@@ -10,7 +10,7 @@ use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, Interval, LANES, Lane, Scratch, Structure, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, Motion, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
 /// its terms are relative to the jump: 12 leave 5e-14 of that at any length.
@@ -270,8 +270,8 @@ impl PeakFinder<'_> {
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
         let [q, v, end_q, end_v] = &peaks.pieces;
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
-        let own =
-            Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
+        let (start, end) = (Motion { q, v }, Motion { q: end_q, v: end_v });
+        let own = Stretch { start, end, loads, length, is_suspect: false, whole: None, ..*flight };
         let modes = self.watched.in_flight().bodies[self.body_of(&suspects[0])].modes.clone();
         peaks.piece.set(self.system.structure.in_flight(), modes, &own, jerk);
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
@@ -333,7 +333,7 @@ impl PeakFinder<'_> {
         series.expand_flight_of(
             modes.0..modes.1,
             self.system.structure.in_flight(),
-            (q, v),
+            Motion { q, v },
             (load, flight.loads.1),
             (leaf.to - leaf.from, order),
         );
@@ -382,11 +382,11 @@ impl PeakFinder<'_> {
                     }
                     interval.fly(flight.start, flight.loads, (flown_q, flown_v), scratch);
                 }
-                (&flown_q[..], &flown_v[..])
+                Motion { q: flown_q, v: flown_v }
             }
         };
-        q.copy_from_slice(known.0);
-        v.copy_from_slice(known.1);
+        q.copy_from_slice(known.q);
+        v.copy_from_slice(known.v);
     }
 
     /// Works out the modal load at a time of a flight.
@@ -413,8 +413,8 @@ fn fly_by_halves(
     [q, v, next_q, next_v]: [&mut Vec<f64>; 4],
 ) {
     let (mut from, mut to, mut length) = (0.0, flight.length, flight.length);
-    q.copy_from_slice(flight.start.0);
-    v.copy_from_slice(flight.start.1);
+    q.copy_from_slice(flight.start.q);
+    v.copy_from_slice(flight.start.v);
     while from < time {
         let middle = from + 0.5 * (to - from);
         // No more than rounding is left.
@@ -430,7 +430,7 @@ fn fly_by_halves(
         if !is_prepared {
             interval.prepare(moving, length);
         }
-        interval.fly_from(from, (q, v), flight.loads, (next_q, next_v), scratch);
+        interval.fly_from(from, Motion { q, v }, flight.loads, (next_q, next_v), scratch);
         std::mem::swap(q, next_q);
         std::mem::swap(v, next_v);
         from = middle;

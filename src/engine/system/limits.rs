@@ -6,9 +6,10 @@ use crate::engine::base::storey::Sense;
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::bounds::oscillation::Oscillation;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::quantities::flight_row::{FlightRow, Motion};
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
 use crate::engine::yielding::element::Element;
+use crate::structure::Motion;
 
 impl System {
     /// Number of all rows with limits.

@@ -176,7 +176,7 @@ fn envelopes_are_never_left() {
             limit_storey(&mut case.system, 1e9);
             *(if is_storey { &mut case.system.storeys[0].limit } else { &mut case.base.rest.gaps[p] }) = limit;
             let Case { system, base, .. } = &case;
-            system.envelopes_stay_within(base, (&base.q, &base.v), (&load, &slope), time)
+            system.envelopes_stay_within(base, base.motion(), (&load, &slope), time)
         });
         let reached = largest(course(&row, &motion).map(value));
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {time:e} s");

@@ -12,7 +12,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Lane, Scratch};
+use crate::structure::{Interval, LANES, Lane, Motion, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -64,7 +64,7 @@ impl Case {
     /// velocities, after a gap if there are flights already; under forces that act on all floors, on one or on none for some
     /// flights each.
     fn fly(&mut self, random: &mut Random, samples: usize, factor: f64) {
-        self.log.close((&self.end.0, &self.end.1));
+        self.log.close(Motion { q: &self.end.0, v: &self.end.1 });
         let (mut state, system) = (self.model.start(0.0), &self.model.system);
         system.convert_to_flight(&mut state.base, [(); 2].map(|()| vec![0.0; system.structure.lanes]).each_mut());
         state.base.v.iter_mut().for_each(|v| *v *= factor);
@@ -93,13 +93,13 @@ impl Case {
 
     fn push(&mut self, load: Load, forces: &[(f64, f64)]) {
         let Case { model, log, end: (q, v) } = self;
-        let system = &model.system;
-        log.push((q, v), load);
+        let (system, motion) = (&model.system, Motion { q, v });
+        log.push(motion, load);
         let [mut loads, mut rates] = [(); 2].map(|()| vec![0.0; model.system.structure.lanes]);
         system.load_in_flight((load.acceleration, load.slope), &mut loads, &mut rates);
         system.add_forces(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
         system.add_forces(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
-        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, (q, v), (&loads, &rates), out));
+        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, motion, (&loads, &rates), out));
     }
 
     /// The motion at a time of flight `k`, s.
@@ -127,7 +127,7 @@ impl Case {
         let (flights, length) = (self.flights(), self.flights().load(k).length);
         let start = flights.motion(k);
         let later = (1..=INSTANTS).filter(|_| length > 0.0).map(|j| self.within(k, time_of(j, length)));
-        std::iter::once((start.0.to_vec(), start.1.to_vec())).chain(later).collect()
+        std::iter::once((start.q.to_vec(), start.v.to_vec())).chain(later).collect()
     }
 
     /// What a force adds to a quantity at a time of flight `k`, s.
@@ -141,7 +141,7 @@ impl Case {
     }
 
     fn flights(&self) -> Flights<'_> {
-        self.log.flights_from(0, (&self.end.0, &self.end.1))
+        self.log.flights_from(0, Motion { q: &self.end.0, v: &self.end.1 })
     }
 }
 
@@ -277,7 +277,7 @@ fn no_quantity_leaves_its_envelope() {
                 let [end_q, end_v] = &mut end;
                 let time = length * f64::from(k) / 512.0;
                 Interval::new(structure, time).fly(
-                    (&q, &v),
+                    Motion { q: &q, v: &v },
                     (&load, &slope),
                     (end_q, end_v),
                     &mut Scratch::new(structure.lanes),
@@ -288,8 +288,8 @@ fn no_quantity_leaves_its_envelope() {
                 }
             }
             let stretch = Stretch {
-                start: (&q, &v),
-                end: (&end[0], &end[1]),
+                start: Motion { q: &q, v: &v },
+                end: Motion { q: &end[0], v: &end[1] },
                 loads: (&load, &slope),
                 rest: &[],
                 ground: (a, s),

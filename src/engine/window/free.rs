@@ -40,7 +40,7 @@ impl FreeTerms<'_> {
             FreeTerms::Series(series) => series.dot_each(&system.pairs[p].row.modes, 2, out),
             FreeTerms::Rows(rows, base) => {
                 let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-                rows.enter(p, (&base.q, &base.v), ground, out);
+                rows.enter(p, base.motion(), ground, out);
             }
         }
     }

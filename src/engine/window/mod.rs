@@ -137,7 +137,7 @@ impl Windows {
             None => {
                 equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
                 let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
-                series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+                series.expand_flight(structure, base.motion(), (&work.load, &work.slope), (longest, order));
                 FreeTerms::Series(series)
             }
         };

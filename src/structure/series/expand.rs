@@ -6,6 +6,7 @@ use crate::numerics::time_map::TimeMap;
 use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
 use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
+use crate::structure::motion::Motion;
 use std::ops::Range;
 
 /// Most powers of a series.
@@ -143,7 +144,7 @@ impl MotionSeries {
     pub fn expand_flight(
         &mut self,
         structure: &Structure,
-        motion: (&[f64], &[f64]),
+        motion: Motion,
         loads: (&[f64], &[f64]),
         extent: (f64, usize),
     ) {
@@ -155,12 +156,12 @@ impl MotionSeries {
         &mut self,
         modes: Range<usize>,
         structure: &Structure,
-        (q, v): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
         (load, slope): (&[f64], &[f64]),
         (scale, order): (f64, usize),
     ) {
         if structure.is_classical() {
-            return expand_single_modes(self, (structure, modes), (q, v), (load, slope), (scale, order));
+            return expand_single_modes(self, (structure, modes), Motion { q, v }, (load, slope), (scale, order));
         }
         self.start(scale, q, v);
         while self.order < order.max(2) {
@@ -181,7 +182,7 @@ impl MotionSeries {
 fn expand_single_modes(
     series: &mut MotionSeries,
     (structure, modes): (&Structure, Range<usize>),
-    (q, v): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
     (scale, order): (f64, usize),
 ) {
