@@ -18,7 +18,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{Counts, FlightWork, Motion, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -81,7 +81,7 @@ impl System {
     ) -> Motion<'a> {
         match self.structure.oscillators().filter(|_| oscillates) {
             Some(oscillators) => {
-                oscillators.to_modes(motion, (of_q, of_v));
+                oscillators.to_modes(motion, MotionMut { q: of_q, v: of_v });
                 Motion { q: of_q, v: of_v }
             }
             None => motion,
@@ -264,7 +264,8 @@ impl System {
         done: &mut Work,
     ) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        window.evaluate(self, FreeMotion::of(self, (base, inputs), series, work), length, (&mut q, &mut v));
+        let free = FreeMotion::of(self, (base, inputs), series, work);
+        window.evaluate(self, free, length, MotionMut { q: &mut q, v: &mut v });
         let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
         let mut interval = std::mem::take(&mut work.interval);
         let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
@@ -272,7 +273,7 @@ impl System {
                 true => FreeMotion::Flight(base, (&load, &slope), &mut interval),
                 false => FreeMotion::Series(series, powers),
             };
-            window.evaluate(self, free, t, (q, v));
+            window.evaluate(self, free, t, MotionMut { q, v });
         };
         self.integrate(base, motion, window.nodes(length), 0.0, work, done);
         (work.interval, work.load, work.slope, work.q, work.v) = (interval, load, slope, q, v);

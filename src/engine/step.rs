@@ -13,7 +13,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
-use crate::structure::{Motion, MotionSeries, exact_order, fly_in_one_series};
+use crate::structure::{Motion, MotionMut, MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
@@ -115,7 +115,7 @@ impl Step {
         (base, inputs): (&Base, &Inputs),
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) {
         match self.dense() {
             _ if elapsed == 0.0 => {
@@ -124,8 +124,8 @@ impl Step {
             }
             Dense::Flight => {
                 system.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(system, base, elapsed, work, (&mut *q, &mut *v)) {
-                    system.fly(base, elapsed, work, (q, v));
+                if !self.fly_back(system, base, elapsed, work, MotionMut { q, v }) {
+                    system.fly(base, elapsed, work, MotionMut { q, v });
                 }
             }
             Dense::Taylor(Solution { series, .. }) => {
@@ -133,10 +133,10 @@ impl Step {
                 series.evaluate(&work.powers, q, v);
             }
             Dense::Onset(onset) => onset.evaluate(elapsed / onset.scale, q, v),
-            Dense::Window(..) if self.evaluate_near_end(system, (base, inputs), elapsed, work, (q, v)) => {}
+            Dense::Window(..) if self.evaluate_near_end(system, (base, inputs), elapsed, work, MotionMut { q, v }) => {}
             Dense::Window(window, series) => {
                 let free = FreeMotion::of(system, (base, inputs), series, work);
-                window.evaluate(system, free, elapsed, (q, v));
+                window.evaluate(system, free, elapsed, MotionMut { q, v });
             }
         }
     }
@@ -149,7 +149,7 @@ impl Step {
         (base, inputs): (&Base, &Inputs),
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) -> bool {
         // Its square is below rounding.
         const NEAR: f64 = 1e-8;
@@ -188,7 +188,7 @@ impl Step {
         base: &Base,
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) -> bool {
         // Small enough that no series converges badly and that the growth by damping backwards in time is below
         // rounding.
@@ -214,7 +214,7 @@ impl Step {
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }
-        fly_in_one_series(flying, end, (&work.load, &work.slope), (-left, order), (q, v));
+        fly_in_one_series(flying, end, (&work.load, &work.slope), (-left, order), MotionMut { q, v });
         true
     }
 

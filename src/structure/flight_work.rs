@@ -11,7 +11,7 @@ use super::bodies::Body;
 use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
-use super::motion::Motion;
+use super::motion::{Motion, MotionMut};
 use super::propagator::ModeIncrement;
 use super::series::power::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -214,7 +214,7 @@ impl FlightEnergy {
         (self.kinetic, self.strain) = match most <= above || at_most <= above {
             true => (0.0, 0.0),
             false => {
-                oscillators.to_modes(motion, (q, v));
+                oscillators.to_modes(motion, MotionMut { q, v });
                 structure.energies(q, v)
             }
         };

@@ -92,7 +92,7 @@ fn add_up(rows: &[[[Lane; BLOCKS]; 2]], q: &[f64], v: &[f64]) -> [Lane; BLOCKS] 
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::{Interval, Scratch, dot};
+    use crate::structure::{Interval, MotionMut, Scratch, dot};
 
     /// Both buildings flown exactly to some times, against the polynomial of a distance between their floors.
     #[test]
@@ -121,7 +121,7 @@ mod tests {
             let x = f64::from(i) / 20.0;
             let interval = Interval::new(&structure, x * length);
             let scratch = &mut Scratch::new(structure.lanes);
-            interval.fly(Motion { q: &q, v: &v }, (&load, &rate), (&mut end_q, &mut end_v), scratch);
+            interval.fly(Motion { q: &q, v: &v }, (&load, &rate), MotionMut { q: &mut end_q, v: &mut end_v }, scratch);
             let value = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
             let exact = dot(&row, &end_q);
             assert!((value - exact).abs() < 2e-13, "{value} instead of {exact} at {x}");

@@ -4,7 +4,7 @@ use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
-use super::motion::Motion;
+use super::motion::{Motion, MotionMut};
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The exact flight of all modes over one interval length.
@@ -65,7 +65,7 @@ impl Interval {
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
     /// no modes.
-    pub fn fly_uncoupled(&self, motion: Motion, loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
+    pub fn fly_uncoupled(&self, motion: Motion, loads: (&[f64], &[f64]), end: MotionMut) {
         fly_modes(&self.modes, motion, loads, end);
     }
 
@@ -74,10 +74,10 @@ impl Interval {
         &self,
         Motion { q, v }: Motion,
         (load, slope): (&[f64], &[f64]),
-        (end_q, end_v): (&mut [f64], &mut [f64]),
+        MotionMut { q: end_q, v: end_v }: MotionMut,
         scratch: &mut Scratch,
     ) {
-        fly_modes(&self.modes, Motion { q, v }, (load, slope), (end_q, end_v));
+        fly_modes(&self.modes, Motion { q, v }, (load, slope), MotionMut { q: end_q, v: end_v });
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
@@ -101,7 +101,7 @@ impl Interval {
         time: f64,
         motion: Motion,
         (load, slope): (&[f64], &[f64]),
-        end: (&mut [f64], &mut [f64]),
+        end: MotionMut,
         scratch: &mut Scratch,
     ) {
         let mut grown = std::mem::take(&mut scratch.y);
@@ -117,7 +117,7 @@ impl Interval {
         &self,
         Motion { q, v }: Motion,
         (participation, (acceleration, slope)): (&[f64], (f64, f64)),
-        (end_q, end_v): (&mut [f64], &mut [f64]),
+        MotionMut { q: end_q, v: end_v }: MotionMut,
     ) -> bool {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
@@ -168,7 +168,7 @@ fn fly_modes(
     modes: &[ModeIncrements],
     Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
-    (end_q, end_v): (&mut [f64], &mut [f64]),
+    MotionMut { q: end_q, v: end_v }: MotionMut,
 ) -> Lane {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);

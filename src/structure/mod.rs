@@ -72,7 +72,7 @@ pub(crate) use lanes::from_left_to_right;
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use links::LinkRow;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
-pub use motion::Motion;
+pub use motion::{Motion, MotionMut};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::MotionSeries;
 pub use series::expand::{EXACT, LONGEST_ANGLE, PIECE_ANGLE, PairForces, flight_order};

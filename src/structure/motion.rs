@@ -8,3 +8,12 @@ pub struct Motion<'a> {
     /// Velocities.
     pub v: &'a [f64],
 }
+
+/// The same, to be written.
+#[derive(Debug)]
+pub struct MotionMut<'a> {
+    /// Displacements.
+    pub q: &'a mut [f64],
+    /// Velocities.
+    pub v: &'a mut [f64],
+}

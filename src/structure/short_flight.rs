@@ -2,7 +2,7 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
-use super::motion::Motion;
+use super::motion::{Motion, MotionMut};
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
@@ -27,7 +27,7 @@ pub fn fly_in_one_series(
     motion: Motion,
     loads: (&[f64], &[f64]),
     (h, order): (f64, usize),
-    end: (&mut [f64], &mut [f64]),
+    end: MotionMut,
 ) {
     if order <= TINY_ANGLE_ORDER {
         // Terms whose number is known stay in registers.
@@ -44,7 +44,7 @@ fn fly<const TERMS: usize>(
     Motion { q, v }: Motion,
     (load, slope): (&[f64], &[f64]),
     (h, order): (f64, usize),
-    (end_q, end_v): (&mut [f64], &mut [f64]),
+    MotionMut { q: end_q, v: end_v }: MotionMut,
 ) {
     let (h2, rate) = (h * h, 1.0 / h);
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
@@ -132,7 +132,8 @@ mod tests {
             series.expand_flight(&structure, Motion { q: &q, v: &v }, (&load, &slope), (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
-            fly_in_one_series(&structure, Motion { q: &q, v: &v }, (&load, &slope), (h, order), (&mut q1, &mut v1));
+            let (motion, end) = (Motion { q: &q, v: &v }, MotionMut { q: &mut q1, v: &mut v1 });
+            fly_in_one_series(&structure, motion, (&load, &slope), (h, order), end);
             let bits = |q: &[f64], v: &[f64]| q.iter().chain(v).map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{angle}");
         }

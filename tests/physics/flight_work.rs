@@ -4,7 +4,7 @@
 use crate::common::{self, scene};
 use pounding::scene::{Link, Place, Scene};
 use pounding::structure::{
-    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, Motion, Scratch, Structure, WorkRoom, dot,
+    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, Motion, MotionMut, Scratch, Structure, WorkRoom, dot,
 };
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
@@ -20,11 +20,8 @@ fn structure([left, right]: [(f64, f64); 2]) -> Structure {
 fn end(structure: &Structure, (q, v): (Lane, Lane), load: (f64, f64), length: f64) -> (Lane, Lane) {
     let (mut end_q, mut end_v) = ([0.0; LANES], [0.0; LANES]);
     let participation = &structure.participation;
-    Interval::new(structure, length).fly_on_ground(
-        Motion { q: &q, v: &v },
-        (participation, load),
-        (&mut end_q, &mut end_v),
-    );
+    let (start, end) = (Motion { q: &q, v: &v }, MotionMut { q: &mut end_q, v: &mut end_v });
+    Interval::new(structure, length).fly_on_ground(start, (participation, load), end);
     (end_q, end_v)
 }
 
@@ -135,7 +132,8 @@ fn fly(structure: &Structure, start: &State, (a, s): (f64, f64), time: f64) -> S
     let load = [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
     let mut scratch = Scratch::new(structure.lanes);
     let load = (&load[0][..], &load[1][..]);
-    Interval::new(structure, time).fly(Motion { q: &start[0], v: &start[1] }, load, (&mut q, &mut v), &mut scratch);
+    let (start, end) = (Motion { q: &start[0], v: &start[1] }, MotionMut { q: &mut q, v: &mut v });
+    Interval::new(structure, time).fly(start, load, end, &mut scratch);
     [q, v]
 }
 
@@ -144,7 +142,7 @@ fn over_all(structure: &Structure, start: &State, length: f64) -> Vec<(FlightEne
     let mut moving = start.clone();
     if let Some(oscillators) = structure.oscillators() {
         let [q, v] = &mut moving;
-        oscillators.from_modes(Motion { q: &start[0], v: &start[1] }, (q, v));
+        oscillators.from_modes(Motion { q: &start[0], v: &start[1] }, MotionMut { q, v });
     }
     let mut found = Vec::new();
     // More than are worked out together, so that each is so beside others.

@@ -192,7 +192,7 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     interval.fly_on_ground(
         base.motion(),
         (&model.system.structure.in_flight().participation, (segment.acceleration_at(0.0), segment.slope)),
-        (&mut step.planned.q, &mut step.planned.v),
+        step.planned.motion_mut(),
     )
 }
 

@@ -5,7 +5,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::excitation::inputs::Inputs;
 use crate::numerics::roots;
-use crate::structure::Motion;
+use crate::structure::{Motion, MotionMut};
 
 /// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +79,10 @@ impl Planned {
     /// The motion at the end.
     pub(crate) fn motion(&self) -> Motion<'_> {
         Motion { q: &self.q, v: &self.v }
+    }
+
+    pub(crate) fn motion_mut(&mut self) -> MotionMut<'_> {
+        MotionMut { q: &mut self.q, v: &mut self.v }
     }
 
     /// Copies the motion at the end of another step, and its length.

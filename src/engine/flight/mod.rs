@@ -46,7 +46,7 @@ impl Flight {
     ) {
         at.counters.flight_steps += 1;
         planned.plan(longest, None, planned.reaches_limit, None);
-        system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
+        system.fly(at.base, longest, work, planned.motion_mut());
         if system.limits() == 0 {
             return;
         }

@@ -12,7 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, Motion, PIECE_ANGLE, difference, flight_order};
+use crate::structure::{EXACT, FreeRows, Motion, MotionMut, PIECE_ANGLE, difference, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -102,7 +102,7 @@ impl Search<'_> {
         }
         let Some((x, event)) = first.found() else { return };
         (planned.length, planned.reaches_limit, planned.event) = (x * rows.length, false, Some(event));
-        system.fly(base, planned.length, work, (&mut planned.q, &mut planned.v));
+        system.fly(base, planned.length, work, planned.motion_mut());
     }
 
     /// Ends the step at the event found in the series of the last piece, or at the end of that piece.
@@ -176,6 +176,6 @@ impl Search<'_> {
     fn fly(&mut self, length: f64) {
         let Search { system, base, look, work, .. } = self;
         let Look { from, end_q, end_v, .. } = &mut **look;
-        system.fly(base, *from + length, work, (end_q, end_v));
+        system.fly(base, *from + length, work, MotionMut { q: end_q, v: end_v });
     }
 }

@@ -13,7 +13,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::structure::Motion;
+use crate::structure::{Motion, MotionMut};
 
 /// Number of flights from one read to the next up to which it is worth looking ahead.
 const OFTEN: usize = 4;
@@ -117,7 +117,7 @@ impl Model {
             return;
         }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
-        let length = self.end_of_flight(state, work, (&mut q, &mut v));
+        let length = self.end_of_flight(state, work, MotionMut { q: &mut q, v: &mut v });
         let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
         let finder = self.peaks();
         let raise = |whole: &Stretch, length: f64, end: Motion, peaks: &mut Peaks, work: &mut PeakWork| {
@@ -134,7 +134,7 @@ impl Model {
     }
 
     /// Works out the end of the planned flight; returns its length, s.
-    fn end_of_flight(&self, state: &State, work: &mut PeakWork, (q, v): (&mut [f64], &mut [f64])) -> f64 {
+    fn end_of_flight(&self, state: &State, work: &mut PeakWork, MotionMut { q, v }: MotionMut) -> f64 {
         let State { base, step, inputs, .. } = state;
         if step.kind == StepKind::Flight {
             q.copy_from_slice(&step.planned.q);
@@ -143,7 +143,7 @@ impl Model {
         }
         let length = base.segment.length;
         self.system.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
-        self.system.fly(base, length, work.buffers, (q, v));
+        self.system.fly(base, length, work.buffers, MotionMut { q, v });
         length
     }
 }

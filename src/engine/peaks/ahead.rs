@@ -12,7 +12,7 @@ use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold::is_below;
 use crate::engine::peaks::fold_room::{LONG, Survivor};
 use crate::engine::peaks::room::PeakWork;
-use crate::structure::{Interval, LANES, Motion};
+use crate::structure::{Interval, LANES, Motion, MotionMut};
 
 /// Number of flights that are flown ahead: those of one span.
 const AHEAD: usize = LONG - 1;
@@ -112,7 +112,8 @@ impl PeakFinder<'_> {
             let segment = ground.segment(number);
             let load = (segment.acceleration_at(0.0), segment.slope);
             let is_finite = |interval: &Interval| {
-                interval.fly_on_ground(Motion { q: &q, v: &v }, (participation, load), (&mut end_q, &mut end_v))
+                let end = MotionMut { q: &mut end_q, v: &mut end_v };
+                interval.fly_on_ground(Motion { q: &q, v: &v }, (participation, load), end)
             };
             if !ground.prepared(&segment).is_some_and(is_finite) {
                 break;

@@ -16,7 +16,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::{Motion, MotionSeries};
+use crate::structure::{Motion, MotionMut, MotionSeries};
 
 /// The x at which a step that begins with an entry is first read: at 0 forces of power laws have no finite slope, and the terms
 /// of an onset step are divided by powers of the time.
@@ -201,7 +201,7 @@ impl PeakFinder<'_> {
             pairs.copy_from_slice(&solution.end);
         } else {
             let free = FreeMotion::of(self.system, (base, inputs), series, work.buffers);
-            window.evaluate_with_pairs(self.system, free, time, (q, v), &mut pairs);
+            window.evaluate_with_pairs(self.system, free, time, MotionMut { q, v }, &mut pairs);
         }
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
             (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);

@@ -10,7 +10,7 @@ use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, Interval, LANES, Lane, Motion, Scratch, Structure, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, Motion, MotionMut, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
 /// its terms are relative to the jump: 12 leave 5e-14 of that at any length.
@@ -380,7 +380,7 @@ impl PeakFinder<'_> {
                     if !is_prepared {
                         interval.prepare(moving, time);
                     }
-                    interval.fly(flight.start, flight.loads, (flown_q, flown_v), scratch);
+                    interval.fly(flight.start, flight.loads, MotionMut { q: flown_q, v: flown_v }, scratch);
                 }
                 Motion { q: flown_q, v: flown_v }
             }
@@ -430,7 +430,7 @@ fn fly_by_halves(
         if !is_prepared {
             interval.prepare(moving, length);
         }
-        interval.fly_from(from, Motion { q, v }, flight.loads, (next_q, next_v), scratch);
+        interval.fly_from(from, Motion { q, v }, flight.loads, MotionMut { q: next_q, v: next_v }, scratch);
         std::mem::swap(q, next_q);
         std::mem::swap(v, next_v);
         from = middle;

@@ -26,7 +26,7 @@ use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Motion, Side, Structure};
+use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Motion, MotionMut, Side, Structure};
 
 /// From more modes on windows take less time than power series floor by floor: these need more instructions from some 30
 /// on, of which more go at once (measured).
@@ -287,7 +287,7 @@ impl System {
         [room_q, room_v]: [&mut Vec<f64>; 2],
     ) {
         if let (true, Some(flight)) = (std::mem::take(oscillates), self.structure.oscillators()) {
-            flight.to_modes(Motion { q, v }, (room_q, room_v));
+            flight.to_modes(Motion { q, v }, MotionMut { q: room_q, v: room_v });
             std::mem::swap(q, room_q);
             std::mem::swap(v, room_v);
         }
@@ -305,7 +305,7 @@ impl System {
         }
         self.convert(base, Coordinates::Modes, [room_q, room_v]);
         if let Some(flight) = self.structure.oscillators() {
-            flight.from_modes(base.motion(), (room_q, room_v));
+            flight.from_modes(base.motion(), MotionMut { q: room_q, v: room_v });
             std::mem::swap(&mut base.q, room_q);
             std::mem::swap(&mut base.v, room_v);
             base.oscillates = true;

@@ -12,7 +12,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Lane, Motion, Scratch};
+use crate::structure::{Interval, LANES, Lane, Motion, MotionMut, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -116,7 +116,7 @@ impl Case {
         Interval::new(system.structure.in_flight(), time).fly(
             flights.motion(k),
             (&load, &rate),
-            (&mut q, &mut v),
+            MotionMut { q: &mut q, v: &mut v },
             &mut scratch,
         );
         (q, v)
@@ -279,7 +279,7 @@ fn no_quantity_leaves_its_envelope() {
                 Interval::new(structure, time).fly(
                     Motion { q: &q, v: &v },
                     (&load, &slope),
-                    (end_q, end_v),
+                    MotionMut { q: end_q, v: end_v },
                     &mut Scratch::new(structure.lanes),
                 );
                 for (block, reached) in rows.blocks.iter().zip(&mut reached) {

@@ -6,7 +6,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{FreeRows, Interval, MotionSeries, dot};
+use crate::structure::{FreeRows, Interval, MotionMut, MotionSeries, dot};
 
 /// The source of the polynomials of the pairs' distances.
 #[derive(Clone, Copy)]
@@ -82,14 +82,14 @@ impl<'a> FreeMotion<'a> {
     }
 
     /// q and v at a time, s.
-    pub fn evaluate(self, system: &System, elapsed: f64, (q, v): (&mut [f64], &mut [f64])) {
+    pub fn evaluate(self, system: &System, elapsed: f64, MotionMut { q, v }: MotionMut) {
         match self {
             FreeMotion::Series(series, powers) => {
                 powers.set(elapsed / series.scale, series.order);
                 series.evaluate(powers, q, v);
             }
             FreeMotion::Flight(base, loads, interval) => {
-                system.fly_uncoupled(base, elapsed, loads, interval, (q, v));
+                system.fly_uncoupled(base, elapsed, loads, interval, MotionMut { q, v });
             }
         }
     }

@@ -292,10 +292,9 @@ impl Window {
             FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
             FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
         };
-        let end = (&mut planned.q[..], &mut planned.v[..]);
         match windows.prepared_pushes.is_empty() {
-            true => self.evaluate(system, free, length, end),
-            false => self.end_by_nodes(system, windows, free, end),
+            true => self.evaluate(system, free, length, planned.motion_mut()),
+            false => self.end_by_nodes(system, windows, free, planned.motion_mut()),
         }
     }
 
