@@ -18,7 +18,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{Counts, FlightWork, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, LinearLoad, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -270,7 +270,7 @@ impl System {
         let mut interval = std::mem::take(&mut work.interval);
         let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
             let free = match self.flies_in_windows() {
-                true => FreeMotion::Flight(base, (&load, &slope), &mut interval),
+                true => FreeMotion::Flight(base, LinearLoad { load: &load, slope: &slope }, &mut interval),
                 false => FreeMotion::Series(series, powers),
             };
             window.evaluate(self, free, t, MotionMut { q, v });
@@ -287,7 +287,7 @@ impl System {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some(pieces) = self.pieces(length) else {
             let largest = base.energy.map_or(0.0, |account| account.largest);
-            return match self.is_quiet(base, (&work.load, &work.slope), largest) {
+            return match self.is_quiet(base, work.loads(), largest) {
                 true => self.integrate_quiet_flight(base, work, length, done),
                 false => self.integrate_long_flight(base, work, length, done),
             };
@@ -299,7 +299,7 @@ impl System {
         let mut series = std::mem::take(&mut work.series);
         for i in 0..pieces {
             let start = Motion { q: &work.q, v: &work.v };
-            series.expand_flight(flying, start, (&work.load, &work.slope), (h, order));
+            series.expand_flight(flying, start, work.loads(), (h, order));
             self.integrate_series(base, &series, (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);
             series.evaluate(&work.powers, &mut work.q, &mut work.v);

@@ -214,7 +214,7 @@ impl Step {
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }
-        fly_in_one_series(flying, end, (&work.load, &work.slope), (-left, order), MotionMut { q, v });
+        fly_in_one_series(flying, end, work.loads(), (-left, order), MotionMut { q, v });
         true
     }
 

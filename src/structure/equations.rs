@@ -9,7 +9,7 @@ use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
-use super::motion::Motion;
+use super::motion::{LinearLoad, Motion};
 use super::soil::{self, SoilRows};
 use crate::scene::{Link, Place, Scene, Side, Soil};
 use nalgebra::DMatrix;
@@ -347,7 +347,7 @@ impl Structure {
     pub fn fourth_derivative_bound(
         &self,
         Motion { q, v }: Motion,
-        (load, slope): (&[f64], &[f64]),
+        LinearLoad { load, slope }: LinearLoad,
         weights: &[f64],
         scratch: &mut Scratch,
     ) -> f64 {

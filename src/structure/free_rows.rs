@@ -92,7 +92,7 @@ fn add_up(rows: &[[[Lane; BLOCKS]; 2]], q: &[f64], v: &[f64]) -> [Lane; BLOCKS] 
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::{Interval, MotionMut, Scratch, dot};
+    use crate::structure::{Interval, LinearLoad, MotionMut, Scratch, dot};
 
     /// Both buildings flown exactly to some times, against the polynomial of a distance between their floors.
     #[test]
@@ -113,15 +113,17 @@ mod tests {
         let (acceleration, slope) = (2.5, -40.0);
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
         terms.resize(FreeRows::TERMS, f64::NAN);
-        rows.enter(0, Motion { q: &q, v: &v }, (acceleration, slope), &mut terms);
+        let motion = Motion { q: &q, v: &v };
+        rows.enter(0, motion, (acceleration, slope), &mut terms);
         let [load, rate] =
             [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
+        let loads = LinearLoad { load: &load, slope: &rate };
         let (mut end_q, mut end_v) = (vector(0.0), vector(0.0));
         for i in 1..=20 {
             let x = f64::from(i) / 20.0;
             let interval = Interval::new(&structure, x * length);
-            let scratch = &mut Scratch::new(structure.lanes);
-            interval.fly(Motion { q: &q, v: &v }, (&load, &rate), MotionMut { q: &mut end_q, v: &mut end_v }, scratch);
+            let end = MotionMut { q: &mut end_q, v: &mut end_v };
+            interval.fly(motion, loads, end, &mut Scratch::new(structure.lanes));
             let value = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
             let exact = dot(&row, &end_q);
             assert!((value - exact).abs() < 2e-13, "{value} instead of {exact} at {x}");

@@ -4,7 +4,7 @@ use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
-use super::motion::{Motion, MotionMut};
+use super::motion::{LinearLoad, Motion, MotionMut};
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The exact flight of all modes over one interval length.
@@ -65,7 +65,7 @@ impl Interval {
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
     /// no modes.
-    pub fn fly_uncoupled(&self, motion: Motion, loads: (&[f64], &[f64]), end: MotionMut) {
+    pub fn fly_uncoupled(&self, motion: Motion, loads: LinearLoad, end: MotionMut) {
         fly_modes(&self.modes, motion, loads, end);
     }
 
@@ -73,11 +73,11 @@ impl Interval {
     pub fn fly(
         &self,
         Motion { q, v }: Motion,
-        (load, slope): (&[f64], &[f64]),
+        LinearLoad { load, slope }: LinearLoad,
         MotionMut { q: end_q, v: end_v }: MotionMut,
         scratch: &mut Scratch,
     ) {
-        fly_modes(&self.modes, Motion { q, v }, (load, slope), MotionMut { q: end_q, v: end_v });
+        fly_modes(&self.modes, Motion { q, v }, LinearLoad { load, slope }, MotionMut { q: end_q, v: end_v });
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
@@ -100,13 +100,13 @@ impl Interval {
         &self,
         time: f64,
         motion: Motion,
-        (load, slope): (&[f64], &[f64]),
+        LinearLoad { load, slope }: LinearLoad,
         end: MotionMut,
         scratch: &mut Scratch,
     ) {
         let mut grown = std::mem::take(&mut scratch.y);
         grown.iter_mut().zip(load.iter().zip(slope)).for_each(|(grown, (load, slope))| *grown = load + slope * time);
-        self.fly(motion, (&grown, slope), end, scratch);
+        self.fly(motion, LinearLoad { load: &grown, slope }, end, scratch);
         scratch.y = grown;
     }
 
@@ -167,7 +167,7 @@ fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
 fn fly_modes(
     modes: &[ModeIncrements],
     Motion { q, v }: Motion,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     MotionMut { q: end_q, v: end_v }: MotionMut,
 ) -> Lane {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);

@@ -2,7 +2,7 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
-use super::motion::{Motion, MotionMut};
+use super::motion::{LinearLoad, Motion, MotionMut};
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
@@ -25,7 +25,7 @@ pub fn exact_order(angle: f64) -> Option<usize> {
 pub fn fly_in_one_series(
     structure: &Structure,
     motion: Motion,
-    loads: (&[f64], &[f64]),
+    loads: LinearLoad,
     (h, order): (f64, usize),
     end: MotionMut,
 ) {
@@ -42,7 +42,7 @@ pub fn fly_in_one_series(
 fn fly<const TERMS: usize>(
     structure: &Structure,
     Motion { q, v }: Motion,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     (h, order): (f64, usize),
     MotionMut { q: end_q, v: end_v }: MotionMut,
 ) {
@@ -123,17 +123,17 @@ mod tests {
         let structure = Structure::of(&scene).unwrap();
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
         let (q, v, load, slope) = (vector(0.1), vector(0.7), vector(1.9), vector(2.3));
+        let (motion, loads) = (Motion { q: &q, v: &v }, LinearLoad { load: &load, slope: &slope });
         let mut series = MotionSeries::new(structure.lanes, MAX_TERMS - 1);
         let mut powers = Powers::default();
         let [mut q0, mut v0, mut q1, mut v1] = [(); 4].map(|()| vec![f64::NAN; structure.lanes]);
         for angle in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
             let h = angle / structure.fastest;
             let order = exact_order(structure.fastest * h).unwrap();
-            series.expand_flight(&structure, Motion { q: &q, v: &v }, (&load, &slope), (h, order));
+            series.expand_flight(&structure, motion, loads, (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
-            let (motion, end) = (Motion { q: &q, v: &v }, MotionMut { q: &mut q1, v: &mut v1 });
-            fly_in_one_series(&structure, motion, (&load, &slope), (h, order), end);
+            fly_in_one_series(&structure, motion, loads, (h, order), MotionMut { q: &mut q1, v: &mut v1 });
             let bits = |q: &[f64], v: &[f64]| q.iter().chain(v).map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{angle}");
         }

@@ -4,7 +4,8 @@
 use crate::common::{self, scene};
 use pounding::scene::{Link, Place, Scene};
 use pounding::structure::{
-    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, Motion, MotionMut, Scratch, Structure, WorkRoom, dot,
+    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure,
+    WorkRoom, dot,
 };
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
@@ -131,7 +132,7 @@ fn fly(structure: &Structure, start: &State, (a, s): (f64, f64), time: f64) -> S
     let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
     let load = [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
     let mut scratch = Scratch::new(structure.lanes);
-    let load = (&load[0][..], &load[1][..]);
+    let load = LinearLoad { load: &load[0], slope: &load[1] };
     let (start, end) = (Motion { q: &start[0], v: &start[1] }, MotionMut { q: &mut q, v: &mut v });
     Interval::new(structure, time).fly(start, load, end, &mut scratch);
     [q, v]

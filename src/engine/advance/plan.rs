@@ -39,7 +39,7 @@ impl Model {
         let Workspace { buffers, look, .. } = work;
         self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
-        let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
+        let longest = self.system.accounted_flight(at.base, buffers.loads(), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
         std::mem::swap(&mut step.planned.load, &mut buffers.load);

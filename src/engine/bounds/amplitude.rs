@@ -28,7 +28,7 @@
 use crate::engine::excitation::record::Ahead;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, Motion, Structure, from_left_to_right};
+use crate::structure::{LANES, Lane, LinearLoad, Motion, Structure, from_left_to_right};
 use std::ops::Range;
 
 /// Largest number of segments for which a row is looked ahead.
@@ -337,7 +337,7 @@ impl Together {
 pub fn pushed<'a>(
     omega2: &[f64],
     Motion { q, v }: Motion,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     h: f64,
     impulses: impl Iterator<Item = (&'a [f64], f64)>,
     amplitudes: &mut [f64],

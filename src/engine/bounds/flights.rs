@@ -1,6 +1,6 @@
 //! Flights that follow each other, on the ground's motion and under forces on floors.
 
-use crate::structure::{Motion, Structure};
+use crate::structure::{LinearLoad, Motion, Structure};
 
 /// The load of a flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,7 +51,7 @@ impl<'a> Forces<'a> {
 pub fn set_energies(
     Structure { omega2, damping, .. }: &Structure,
     Motion { q, v }: Motion,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     out: &mut [f64],
 ) {
     // Equal lengths: no bounds checks below.

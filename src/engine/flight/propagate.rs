@@ -4,7 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{Interval, LONGEST_ANGLE, Motion, MotionMut, exact_order, fly_in_one_series};
+use crate::structure::{Interval, LONGEST_ANGLE, LinearLoad, Motion, MotionMut, exact_order, fly_in_one_series};
 
 /// Up to so many series cost less than matrices and lose no digits.
 const MOST_PIECES: f64 = 32.0;
@@ -14,7 +14,7 @@ impl System {
     pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, end: MotionMut) {
         let Buffers { load, slope, scratch, interval, .. } = work;
         if self.structure.in_flight().is_classical() && !cfg!(without = "short_flight") {
-            return self.fly_uncoupled(base, h, (load, slope), interval, end);
+            return self.fly_uncoupled(base, h, LinearLoad { load, slope }, interval, end);
         }
         let prepared = self.prepared(base, h);
         let pieces = (self.structure.fastest * h / LONGEST_ANGLE).ceil().max(1.0);
@@ -26,7 +26,7 @@ impl System {
             interval.prepare(&self.structure, h);
             interval
         });
-        interval.fly(base.motion(), (load, slope), end, scratch);
+        interval.fly(base.motion(), LinearLoad { load, slope }, end, scratch);
     }
 
     /// The same; leaves the motion in `work.q`, `work.v`.
@@ -37,7 +37,7 @@ impl System {
     }
 
     /// The motion `h` seconds after the base where damping couples no modes, under a load and its slope; `interval` is memory.
-    pub fn fly_uncoupled(&self, base: &Base, h: f64, loads: (&[f64], &[f64]), interval: &mut Interval, end: MotionMut) {
+    pub fn fly_uncoupled(&self, base: &Base, h: f64, loads: LinearLoad, interval: &mut Interval, end: MotionMut) {
         let start = base.motion();
         if let Some(prepared) = self.prepared(base, h) {
             return prepared.fly_uncoupled(start, loads, end);
@@ -65,7 +65,7 @@ impl System {
                 .iter_mut()
                 .zip(load.iter().zip(&*slope))
                 .for_each(|(moved, (load, slope))| *moved = load + slope * start);
-            series.expand_flight(&self.structure, Motion { q, v }, (moved, slope), (piece, order));
+            series.expand_flight(&self.structure, Motion { q, v }, LinearLoad { load: moved, slope }, (piece, order));
             powers.set(1.0, series.order);
             series.evaluate(powers, q, v);
         }

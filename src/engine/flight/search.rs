@@ -12,7 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, Motion, MotionMut, PIECE_ANGLE, difference, flight_order};
+use crate::structure::{EXACT, FreeRows, LinearLoad, Motion, MotionMut, PIECE_ANGLE, difference, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -56,7 +56,8 @@ impl Search<'_> {
             let left = remaining - self.look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
-                let (motion, loads) = (self.look.motion(), (&self.look.load[..], &self.work.slope[..]));
+                let (motion, loads) =
+                    (self.look.motion(), LinearLoad { load: &self.look.load, slope: &self.work.slope });
                 if system.envelopes_stay_within(base, motion, loads, left) {
                     return;
                 }
@@ -127,7 +128,7 @@ impl Search<'_> {
         // Series of oscillators lose a term where their rates enter.
         let order = (order + usize::from(system.structure.oscillators().is_some())).min(MAX_ORDER);
         let Look { from, q, v, load, is_free, .. } = &*look;
-        work.series.expand_flight(flying, Motion { q, v }, (load, &work.slope), (length, order));
+        work.series.expand_flight(flying, Motion { q, v }, LinearLoad { load, slope: &work.slope }, (length, order));
         let mut first = First::up_to(1.0);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if is_free[p] {
@@ -153,7 +154,7 @@ impl Search<'_> {
     /// Whether both ends of a piece prove that no limit is reached in it; if so, the search moves on to its end.
     fn piece_stays_within(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
-        let (motion, loads) = (look.motion(), (&look.load[..], &work.slope[..]));
+        let (motion, loads) = (look.motion(), LinearLoad { load: &look.load, slope: &work.slope });
         let deviation = certificate.deviation(system.structure.in_flight(), motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;

@@ -33,7 +33,7 @@ pub fn plan(
 ) -> bool {
     let Some((grid, scale)) = system.onset_grid(base, work, remaining) else { return false };
     onset.start(base, &system.pairs, grid, scale);
-    let loads = (&work.load[..], &work.slope[..]);
+    let loads = work.loads();
     let (structure, coordinates) = (&system.structure, base.coordinates);
     match coordinates {
         Coordinates::Floors => expand(onset, structure, coordinates, loads, &FloorJacobian),

@@ -17,7 +17,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
 use crate::engine::quantities::truncated::{FourModes, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
-use crate::structure::{LANES, Lane, Motion};
+use crate::structure::{LANES, Lane, LinearLoad, Motion};
 use std::ops::Range;
 
 /// Flights, and one body's rows to be read over them.
@@ -155,14 +155,14 @@ impl PeakFinder<'_> {
         let mut own = None;
         let loads = whole.map_or_else(
             || {
-                let (load, rate) =
+                let (load, slope) =
                     own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
-                self.system.load_in_flight(ground, load, rate);
+                self.system.load_in_flight(ground, load, slope);
                 if let Some((forces, rates)) = forces {
                     self.system.add_forces(forces.iter().copied(), Coordinates::Modes, load);
-                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, rate);
+                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, slope);
                 }
-                (&load[..], &rate[..])
+                LinearLoad { load, slope }
             },
             |whole| whole.loads,
         );

@@ -40,7 +40,7 @@ use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::quantities::watched::Watched;
 use crate::engine::step::Step;
 use crate::engine::system::System;
-use crate::structure::Motion;
+use crate::structure::{LinearLoad, Motion};
 
 /// What finds peaks: what is watched in a system, raised over each kind of step.
 #[derive(Clone, Copy)]
@@ -96,7 +96,7 @@ impl PeakFinder<'_> {
         log.push(motion, Load { acceleration, slope: base.segment.slope, length: planned.length });
         if self.system.floor_forces {
             let at = |force: &LinearInput| (force.after(base.segment.start, base.elapsed), force.slope());
-            let loads = (&planned.load[..], &planned.slope[..]);
+            let loads = LinearLoad { load: &planned.load, slope: &planned.slope };
             log.push_forces(inputs.floor_forces.iter().map(at), |energies| {
                 set_energies(&self.system.structure, motion, loads, energies);
             });
@@ -142,7 +142,7 @@ impl PeakFinder<'_> {
             self.note_floor_forces(base, inputs, &mut work.peaks.direct);
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let loads = (&load[..], &slope[..]);
+        let loads = LinearLoad { load: &load, slope: &slope };
         let (start, is_suspect) = (base.motion(), false);
         let rest = &base.rest.watched;
         then(&Stretch { start, end, loads, rest, ground, length, is_suspect, searched: 0.0, whole: None }, work);

@@ -10,7 +10,7 @@ use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, Interval, LANES, Lane, Motion, MotionMut, Scratch, Structure, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
 /// its terms are relative to the jump: 12 leave 5e-14 of that at any length.
@@ -269,7 +269,7 @@ impl PeakFinder<'_> {
         self.set_load(flight, piece.from, work);
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
         let [q, v, end_q, end_v] = &peaks.pieces;
-        let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
+        let (loads, length) = (LinearLoad { load: &peaks.load, slope: flight.loads.slope }, piece.to - piece.from);
         let (start, end) = (Motion { q, v }, Motion { q: end_q, v: end_v });
         let own = Stretch { start, end, loads, length, is_suspect: false, whole: None, ..*flight };
         let modes = self.watched.in_flight().bodies[self.body_of(&suspects[0])].modes.clone();
@@ -334,11 +334,11 @@ impl PeakFinder<'_> {
             modes.0..modes.1,
             self.system.structure.in_flight(),
             Motion { q, v },
-            (load, flight.loads.1),
+            LinearLoad { load, slope: flight.loads.slope },
             (leaf.to - leaf.from, order),
         );
         if leaf.is_settled {
-            self.expand_settled(modes.0..modes.1, flight.loads.1, work);
+            self.expand_settled(modes.0..modes.1, flight.loads.slope, work);
         }
     }
 
@@ -391,7 +391,7 @@ impl PeakFinder<'_> {
 
     /// Works out the modal load at a time of a flight.
     pub(super) fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
-        let (start, slope) = flight.loads;
+        let LinearLoad { load: start, slope } = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
             *load = start + slope * time;
         }

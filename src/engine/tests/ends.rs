@@ -15,7 +15,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::roots::{deviation, highest_of_cubic};
-use crate::structure::Motion;
+use crate::structure::{LinearLoad, Motion};
 
 #[test]
 fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
@@ -38,7 +38,8 @@ fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
         let Case { system, base, work, .. } = &mut case;
         let flying = system.structure.in_flight();
         let certificate = Certificate::of(&system.structure, [&row.sizes[..]].into_iter());
-        let bound = certificate.deviation(flying, base.motion(), (&load, &slope), h, &mut work.scratch);
+        let loads = LinearLoad { load: &load, slope: &slope };
+        let bound = certificate.deviation(flying, base.motion(), loads, h, &mut work.scratch);
         let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (row.value(q, v), row.rate(q, v)));
         let cubic = |x: f64| hermite(from, to, h, x);
         let off = course(&row, &motion).enumerate().map(|(i, value)| (value - cubic(i as f64 / 16.0)).abs());

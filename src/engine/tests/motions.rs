@@ -12,7 +12,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, Motion, MotionMut, Scratch, Structure, dot};
+use crate::structure::{Interval, LinearLoad, Motion, MotionMut, Scratch, Structure, dot};
 
 /// Random numbers that are the same in every run (splitmix64).
 pub struct Random(pub u64);
@@ -259,7 +259,8 @@ impl Case {
                 load.iter().zip(&slope).map(|(load, slope)| load + slope * (i as f64 * piece)).collect();
             let (mut end, [q, v]) = ([now.clone(), now.clone()], &states[i]);
             let [end_q, end_v] = &mut end;
-            interval.fly(Motion { q, v }, (&now, &slope), MotionMut { q: end_q, v: end_v }, &mut scratch);
+            let loads = LinearLoad { load: &now, slope: &slope };
+            interval.fly(Motion { q, v }, loads, MotionMut { q: end_q, v: end_v }, &mut scratch);
             states.push(end);
         }
         states

@@ -12,7 +12,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Lane, Motion, MotionMut, Scratch};
+use crate::structure::{Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -99,7 +99,8 @@ impl Case {
         system.load_in_flight((load.acceleration, load.slope), &mut loads, &mut rates);
         system.add_forces(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
         system.add_forces(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
-        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, motion, (&loads, &rates), out));
+        let loads = LinearLoad { load: &loads, slope: &rates };
+        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, motion, loads, out));
     }
 
     /// The motion at a time of flight `k`, s.
@@ -115,7 +116,7 @@ impl Case {
         }
         Interval::new(system.structure.in_flight(), time).fly(
             flights.motion(k),
-            (&load, &rate),
+            LinearLoad { load: &load, slope: &rate },
             MotionMut { q: &mut q, v: &mut v },
             &mut scratch,
         );
@@ -278,7 +279,7 @@ fn no_quantity_leaves_its_envelope() {
                 let time = length * f64::from(k) / 512.0;
                 Interval::new(structure, time).fly(
                     Motion { q: &q, v: &v },
-                    (&load, &slope),
+                    LinearLoad { load: &load, slope: &slope },
                     MotionMut { q: end_q, v: end_v },
                     &mut Scratch::new(structure.lanes),
                 );
@@ -290,7 +291,7 @@ fn no_quantity_leaves_its_envelope() {
             let stretch = Stretch {
                 start: Motion { q: &q, v: &v },
                 end: Motion { q: &end[0], v: &end[1] },
-                loads: (&load, &slope),
+                loads: LinearLoad { load: &load, slope: &slope },
                 rest: &[],
                 ground: (a, s),
                 length,

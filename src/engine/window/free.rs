@@ -6,7 +6,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{FreeRows, Interval, MotionMut, MotionSeries, dot};
+use crate::structure::{FreeRows, Interval, LinearLoad, MotionMut, MotionSeries, dot};
 
 /// The source of the polynomials of the pairs' distances.
 #[derive(Clone, Copy)]
@@ -63,7 +63,7 @@ impl FreeTerms<'_> {
 pub enum FreeMotion<'a> {
     Series(&'a MotionSeries, &'a mut Powers),
     /// The exact flight from the base, under a load and its slope; with memory for it.
-    Flight(&'a Base, (&'a [f64], &'a [f64]), &'a mut Interval),
+    Flight(&'a Base, LinearLoad<'a>, &'a mut Interval),
 }
 
 impl<'a> FreeMotion<'a> {
@@ -78,7 +78,7 @@ impl<'a> FreeMotion<'a> {
             return FreeMotion::Series(series, &mut work.powers);
         }
         system.load(base, inputs, &mut work.load, &mut work.slope);
-        FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval)
+        FreeMotion::Flight(base, LinearLoad { load: &work.load, slope: &work.slope }, &mut work.interval)
     }
 
     /// q and v at a time, s.
