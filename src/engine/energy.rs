@@ -106,9 +106,9 @@ impl System {
         let length = step.planned.length;
         if let Some(of_segment) = self.work_of_segment(base, step) {
             counters.energy_steps += 1;
-            let load = (base.segment.acceleration_at(0.0), base.segment.slope);
+            let ground = base.segment.ground_from(0.0);
             if self.structure.is_classical() {
-                let flight = of_segment.over((base.q.as_chunks().0, base.v.as_chunks().0), load);
+                let flight = of_segment.over((base.q.as_chunks().0, base.v.as_chunks().0), ground);
                 let impact = base.dissipated_by_contacts();
                 base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
                 return;
@@ -116,8 +116,7 @@ impl System {
             if waiting.is_full() {
                 self.settle(base, (waiting, work));
             }
-            let load = Load { acceleration: load.0, slope: load.1, length };
-            waiting.push(base.motion(), load);
+            waiting.push(base.motion(), Load { ground, length });
             return;
         }
         self.settle(base, (waiting, work));
@@ -156,10 +155,7 @@ impl System {
         let flights = waiting.flights_from(0, Motion::default());
         let mut first = 0;
         for of_length in flights.loads.chunk_by(|one, next| one.length == next.length) {
-            let flight = |k: usize| {
-                let Load { acceleration, slope, .. } = of_length[k];
-                (flights.motion(first + k), (acceleration, slope))
-            };
+            let flight = |k: usize| (flights.motion(first + k), of_length[k].ground);
             if let Some(work) = ground.work_over(of_length[0].length) {
                 work.over_all(&self.structure, (of_length.len(), flight), account.counts(), room, |flight, done| {
                     account.add_flight(flight, impact);
@@ -243,8 +239,7 @@ impl System {
     /// Work over a flight of any length without forces on the floors, as over whole segments.
     fn integrate_long_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let counts = Counts { above: f64::INFINITY, at_most: 0.0 };
-        let load = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let flight = |_| (base.motion(), load);
+        let flight = |_| (base.motion(), base.ground());
         let of_length = FlightWork::of(&self.structure, length);
         of_length.over_all(&self.structure, (1, flight), counts, &mut work.account, |flight, _| {
             done.input += flight.input;

@@ -11,7 +11,7 @@ use super::bodies::Body;
 use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
-use super::motion::{Motion, MotionMut};
+use super::motion::{LinearGround, Motion, MotionMut};
 use super::propagator::ModeIncrement;
 use super::series::power::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -172,7 +172,8 @@ impl FlightWork {
 
     /// Over one flight, in bodies in which it couples none.
     #[inline(always)]
-    pub fn over(&self, (q, v): (&[Lane], &[Lane]), (a, s): (f64, f64)) -> FlightEnergy {
+    pub fn over(&self, (q, v): (&[Lane], &[Lane]), ground: LinearGround) -> FlightEnergy {
+        let LinearGround { acceleration: a, slope: s } = ground;
         let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];
         for ((mode, q), v) in self.modes.iter().zip(q).zip(v) {
             let ModeForms { viscous: [qq, qv, vv], viscous_mixed: [qa, qs, va, vs], input: [aq, av, sq, sv], omega2 } =

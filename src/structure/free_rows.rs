@@ -4,7 +4,7 @@
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{POLYNOMIAL_TERMS, PolynomialMaker};
-use super::motion::Motion;
+use super::motion::{LinearGround, Motion};
 use crate::numerics::polynomial::each;
 use std::array::from_fn;
 
@@ -52,12 +52,12 @@ impl FreeRows {
 
     /// Writes the terms of a pair's distance from power 2 on, m, from the motion at the start, the ground acceleration
     /// there, m/s2, and its slope.
-    pub fn enter(&self, pair: usize, Motion { q, v }: Motion, (acceleration, slope): (f64, f64), out: &mut [f64]) {
+    pub fn enter(&self, pair: usize, Motion { q, v }: Motion, ground: LinearGround, out: &mut [f64]) {
         let PairRows { by_motion, by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
         let mut terms = add_up(by_motion, q, v);
-        let ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
-        for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(ground) {
-            *terms = each(|i| terms[i] + (by_acceleration[i] * acceleration + by_slope[i] * slope));
+        let by_ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
+        for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(by_ground) {
+            *terms = each(|i| terms[i] + (by_acceleration[i] * ground.acceleration + by_slope[i] * ground.slope));
         }
         out[2..POLYNOMIAL_TERMS].copy_from_slice(&terms.as_flattened()[2..]);
     }
@@ -114,7 +114,7 @@ mod tests {
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
         terms.resize(FreeRows::TERMS, f64::NAN);
         let motion = Motion { q: &q, v: &v };
-        rows.enter(0, motion, (acceleration, slope), &mut terms);
+        rows.enter(0, motion, LinearGround { acceleration, slope }, &mut terms);
         let [load, rate] =
             [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
         let loads = LinearLoad { load: &load, slope: &rate };

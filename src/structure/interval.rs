@@ -4,7 +4,7 @@ use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
-use super::motion::{LinearLoad, Motion, MotionMut};
+use super::motion::{LinearGround, LinearLoad, Motion, MotionMut};
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The exact flight of all modes over one interval length.
@@ -116,7 +116,7 @@ impl Interval {
     pub fn fly_on_ground(
         &self,
         Motion { q, v }: Motion,
-        (participation, (acceleration, slope)): (&[f64], (f64, f64)),
+        (participation, ground): (&[f64], LinearGround),
         MotionMut { q: end_q, v: end_v }: MotionMut,
     ) -> bool {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
@@ -127,7 +127,7 @@ impl Interval {
         let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
         for c in 0..width {
-            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], (acceleration, slope));
+            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], ground);
             for i in 0..LANES {
                 // Finite only if all of its terms are.
                 sum[i] += q[i] + v[i];

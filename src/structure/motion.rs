@@ -1,4 +1,4 @@
-//! Vectors that go together: displacements and velocities, a load and its rate.
+//! Vectors that go together: displacements and velocities, a load or the ground's acceleration and its rate.
 
 /// Displacements, m, of modes m kg^1/2, or the coordinates of oscillators, and their rates, per second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,4 +25,26 @@ pub struct LinearLoad<'a> {
     pub load: &'a [f64],
     /// Its rate, per second.
     pub slope: &'a [f64],
+}
+
+/// The ground's acceleration over a time in which it is linear.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearGround {
+    /// At the start, m/s2.
+    pub acceleration: f64,
+    /// Its slope, m/s3.
+    pub slope: f64,
+}
+
+impl LinearGround {
+    /// The acceleration some seconds after the start, m/s2.
+    #[inline(always)]
+    pub fn after(self, time: f64) -> f64 {
+        self.acceleration + self.slope * time
+    }
+
+    /// The same from some seconds after the start on.
+    pub fn later(self, time: f64) -> LinearGround {
+        LinearGround { acceleration: self.after(time), ..self }
+    }
 }

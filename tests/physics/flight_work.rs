@@ -4,8 +4,8 @@
 use crate::common::{self, scene};
 use pounding::scene::{Link, Place, Scene};
 use pounding::structure::{
-    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure,
-    WorkRoom, dot,
+    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinearGround, LinearLoad, Motion, MotionMut, Scratch,
+    Structure, WorkRoom, dot,
 };
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
@@ -17,12 +17,16 @@ fn structure([left, right]: [(f64, f64); 2]) -> Structure {
     Structure::of(&scene).ok().unwrap()
 }
 
+fn ground((acceleration, slope): (f64, f64)) -> LinearGround {
+    LinearGround { acceleration, slope }
+}
+
 /// The motion at the end of a flight of `length` seconds.
 fn end(structure: &Structure, (q, v): (Lane, Lane), load: (f64, f64), length: f64) -> (Lane, Lane) {
     let (mut end_q, mut end_v) = ([0.0; LANES], [0.0; LANES]);
     let participation = &structure.participation;
     let (start, end) = (Motion { q: &q, v: &v }, MotionMut { q: &mut end_q, v: &mut end_v });
-    Interval::new(structure, length).fly_on_ground(start, (participation, load), end);
+    Interval::new(structure, length).fly_on_ground(start, (participation, ground(load)), end);
     (end_q, end_v)
 }
 
@@ -43,7 +47,7 @@ fn work_of_the_ground_and_of_damping_balance_the_energy() {
         let structure = structure(modes);
         let work = FlightWork::of(&structure, length);
         for load in [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
-            let over = work.over((&[START.0], &[START.1]), load);
+            let over = work.over((&[START.0], &[START.1]), ground(load));
             let (q, v) = end(&structure, START, load, length);
             let (kinetic, strain) = structure.energies(&START.0, &START.1);
             let (end_kinetic, end_strain) = structure.energies(&q, &v);
@@ -81,7 +85,7 @@ fn work_of_the_ground_is_that_of_the_equation_of_motion() {
                 let lost = lost.iter().fold(0.0_f64, |size, term| size.max(term.abs()));
                 size = size.max((p * a * q[m].abs().max(START.0[m].abs())).abs()).max((p * s * lost).abs());
             }
-            let input = work.over((&[START.0], &[START.1]), (a, s)).input;
+            let input = work.over((&[START.0], &[START.1]), ground((a, s))).input;
             assert!(
                 (input - exact).abs() <= rounding(&structure, length) * size,
                 "{modes:?} over {length} s: {input} instead of {exact}"
@@ -130,7 +134,7 @@ fn coupled() -> Vec<Structure> {
 /// The motion after `time` seconds.
 fn fly(structure: &Structure, start: &State, (a, s): (f64, f64), time: f64) -> State {
     let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
-    let load = [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
+    let load = [a, s].map(|size: f64| structure.participation.iter().map(|p| -p * size).collect::<Vec<_>>());
     let mut scratch = Scratch::new(structure.lanes);
     let load = LinearLoad { load: &load[0], slope: &load[1] };
     let (start, end) = (Motion { q: &start[0], v: &start[1] }, MotionMut { q: &mut q, v: &mut v });
@@ -147,7 +151,7 @@ fn over_all(structure: &Structure, start: &State, length: f64) -> Vec<(FlightEne
     }
     let mut found = Vec::new();
     // More than are worked out together, so that each is so beside others.
-    let flights = (11, |k: usize| (Motion { q: &moving[0], v: &moving[1] }, LOADS[k % LOADS.len()]));
+    let flights = (11, |k: usize| (Motion { q: &moving[0], v: &moving[1] }, ground(LOADS[k % LOADS.len()])));
     FlightWork::of(structure, length).over_all(
         structure,
         flights,

@@ -16,7 +16,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::numerics::sum::Sum;
-use crate::structure::{FlightEnergy, Motion};
+use crate::structure::{FlightEnergy, LinearGround, Motion};
 use serde::{Deserialize, Serialize};
 
 /// The coordinates of a vector of motion: floor by floor or mode by mode.
@@ -106,6 +106,11 @@ impl Base {
     /// Adds the work of the dashpot of each link, J.
     pub(super) fn add_work_of_dashpots(&mut self, done: &[f64]) {
         self.dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
+    }
+
+    /// The ground's acceleration from the base on.
+    pub(super) fn ground(&self) -> LinearGround {
+        self.segment.ground_from(self.elapsed)
     }
 
     pub(super) fn motion(&self) -> Motion<'_> {

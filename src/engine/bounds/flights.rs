@@ -1,16 +1,20 @@
 //! Flights that follow each other, on the ground's motion and under forces on floors.
 
-use crate::structure::{LinearLoad, Motion, Structure};
+use crate::structure::{LinearGround, LinearLoad, Motion, Structure};
 
 /// The load of a flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Ground acceleration at the start, m/s2.
-    pub acceleration: f64,
-    /// Its slope, m/s3.
-    pub slope: f64,
+    pub ground: LinearGround,
     /// Length, s; 0: a gap, as contact or yielding has changed the motion before the next flight.
     pub length: f64,
+}
+
+impl Load {
+    /// That of a gap after it.
+    pub fn gap(self) -> Load {
+        Load { ground: LinearGround { slope: 0.0, ..self.ground.later(self.length) }, length: 0.0 }
+    }
 }
 
 /// Flights that follow each other, or the first part of one: the motions at their starts, and at the end of the last one, if it is no gap.
@@ -85,9 +89,6 @@ impl<'a> Flights<'a> {
 
     /// The load by the ground's motion in flight `k`; at the end of the last one that of a gap.
     pub fn load(&self, k: usize) -> Load {
-        self.loads.get(k).copied().unwrap_or_else(|| {
-            let Load { acceleration, slope, length } = self.loads.last().copied().unwrap_or_default();
-            Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 }
-        })
+        self.loads.get(k).copied().unwrap_or_else(|| self.loads.last().copied().unwrap_or_default().gap())
     }
 }

@@ -14,7 +14,7 @@
 use crate::engine::bounds::flights::{Flights, Forces};
 use crate::engine::quantities::truncated::{FourModes, Mode, PushedFloors, TruncatedBlock, TruncatedBody};
 use crate::numerics::polynomial::{each, larger, largest};
-use crate::structure::{LANES, Lane, Motion};
+use crate::structure::{LANES, Lane, LinearGround, Motion};
 
 /// Flights in a part of a span, over which one bound on what is left of the quick modes holds.
 pub const PART: usize = 5;
@@ -70,15 +70,15 @@ impl<const N: usize> Span<N> {
     pub fn of(flights: &Flights, from: usize) -> Span<N> {
         let count = (flights.count() - from).min(N - 1);
         let end = flights.load(from + count);
-        let (mut ground, mut slopes) = ([[end.acceleration; N]; 2], [end.slope; N]);
+        let (mut ground, mut slopes) = ([[end.ground.acceleration; N]; 2], [end.ground.slope; N]);
         let (mut longest, mut jumps) = (0.0, false);
-        let mut before = flights.load(from).acceleration;
+        let mut before = flights.load(from).ground.acceleration;
         for (t, load) in flights.loads[from..from + count].iter().enumerate() {
-            let last = load.acceleration + load.slope * load.length;
-            (ground[0][t], ground[1][t], slopes[t]) = (load.acceleration, last, load.slope);
+            let (LinearGround { acceleration, slope }, last) = (load.ground, load.ground.after(load.length));
+            (ground[0][t], ground[1][t], slopes[t]) = (acceleration, last, slope);
             longest = larger(longest, load.length);
             // By more than rounding.
-            let is_jump = (before - load.acceleration).abs() > JUMP * (before.abs() + load.acceleration.abs());
+            let is_jump = (before - acceleration).abs() > JUMP * (before.abs() + acceleration.abs());
             jumps |= load.length == 0.0 || is_jump;
             before = last;
         }

@@ -2,7 +2,7 @@
 
 use crate::engine::bounds::amplitude::share;
 use crate::numerics::polynomial::larger;
-use crate::structure::{LinearLoad, Motion, Structure};
+use crate::structure::{LinearGround, LinearLoad, Motion, Structure};
 use std::ops::Range;
 
 /// Margin for rounding, relative to the terms of an amplitude.
@@ -19,7 +19,7 @@ pub struct Stretch<'a> {
     /// The watched quantities at rest, which those of the motion are added to.
     pub rest: &'a [f64],
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
-    pub ground: (f64, f64),
+    pub ground: LinearGround,
     /// Length, s.
     pub length: f64,
     /// Whether a peak may well be exceeded in it, as other bounds have shown, so that those by amplitudes are left out.

@@ -134,9 +134,8 @@ impl FlightLog {
     /// Ends the last flight at a motion, where something other than the ground and forces on floors is about to move the
     /// buildings.
     pub fn close(&mut self, motion: Motion) {
-        if let Some(Load { acceleration, slope, length }) = self.loads.last().copied().filter(|load| load.length > 0.0)
-        {
-            self.push(motion, Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 });
+        if let Some(load) = self.loads.last().copied().filter(|load| load.length > 0.0) {
+            self.push(motion, load.gap());
             self.push_forces(std::iter::empty(), |_| ());
         }
     }

@@ -87,7 +87,7 @@ impl Search<'_> {
     /// The same in one piece, by prepared polynomials of the penetrations.
     fn first_entry_by_rows(&mut self, rows: &FreeRows, planned: &mut Planned) {
         let Search { system, base, look, work, .. } = self;
-        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let ground = base.ground();
         let mut first = First::up_to(planned.length / rows.length);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if look.is_free[p] {

@@ -108,9 +108,8 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let State { base, inputs, .. } = state;
-        let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
-        let load_over = |length: f64| [Load { acceleration, slope, length }];
+        let load_over = |length: f64| [Load { ground: base.ground(), length }];
         let loads = load_over(elapsed);
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         if ahead.stay_below(&part, &base.rest.watched, peaks) {

@@ -110,15 +110,15 @@ impl PeakFinder<'_> {
         v.copy_from_slice(&base.v);
         for number in first..first + AHEAD as u64 {
             let segment = ground.segment(number);
-            let load = (segment.acceleration_at(0.0), segment.slope);
+            let acceleration = segment.ground_from(0.0);
             let is_finite = |interval: &Interval| {
                 let end = MotionMut { q: &mut end_q, v: &mut end_v };
-                interval.fly_on_ground(Motion { q: &q, v: &v }, (participation, load), end)
+                interval.fly_on_ground(Motion { q: &q, v: &v }, (participation, acceleration), end)
             };
             if !ground.prepared(&segment).is_some_and(is_finite) {
                 break;
             }
-            log.push(Motion { q: &q, v: &v }, Load { acceleration: load.0, slope: load.1, length: segment.length });
+            log.push(Motion { q: &q, v: &v }, Load { ground: acceleration, length: segment.length });
             std::mem::swap(&mut q, &mut end_q);
             std::mem::swap(&mut v, &mut end_v);
         }

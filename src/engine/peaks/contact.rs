@@ -285,7 +285,8 @@ impl PeakFinder<'_> {
         let span = self.span_of(self.watched.rows.body_of(place / LANES), part.base.coordinates);
         let step = part.step;
         let at_rest = part.base.rest.watched[place] + self.soften_row(of, part.base, &mut rows);
-        let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground(), oscillates: false };
+        let quantity =
+            Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),

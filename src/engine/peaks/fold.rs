@@ -150,8 +150,8 @@ impl PeakFinder<'_> {
         work: &mut PeakWork,
     ) {
         let Some(flight) = survivors.first().map(|survivor| survivor.flight) else { return };
-        let Load { acceleration, slope, length } = flights.load(flight);
-        let (ground, forces) = ((acceleration, slope), flights.forces.and_then(|forces| forces.acting(flight)));
+        let Load { ground, length } = flights.load(flight);
+        let forces = flights.forces.and_then(|forces| forces.acting(flight));
         let mut own = None;
         let loads = whole.map_or_else(
             || {

@@ -92,8 +92,8 @@ impl PeakFinder<'_> {
         if log.is_full() {
             self.fold_log(base, (log, &mut work));
         }
-        let (motion, acceleration) = (base.motion(), base.segment.acceleration_at(base.elapsed));
-        log.push(motion, Load { acceleration, slope: base.segment.slope, length: planned.length });
+        let motion = base.motion();
+        log.push(motion, Load { ground: base.ground(), length: planned.length });
         if self.system.floor_forces {
             let at = |force: &LinearInput| (force.after(base.segment.start, base.elapsed), force.slope());
             let loads = LinearLoad { load: &planned.load, slope: &planned.slope };
@@ -141,8 +141,7 @@ impl PeakFinder<'_> {
         if self.system.floor_forces {
             self.note_floor_forces(base, inputs, &mut work.peaks.direct);
         }
-        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let loads = LinearLoad { load: &load, slope: &slope };
+        let (ground, loads) = (base.ground(), LinearLoad { load: &load, slope: &slope });
         let (start, is_suspect) = (base.motion(), false);
         let rest = &base.rest.watched;
         then(&Stretch { start, end, loads, rest, ground, length, is_suspect, searched: 0.0, whole: None }, work);

@@ -299,7 +299,7 @@ impl PeakFinder<'_> {
             return;
         }
         let Piece { from, to, .. } = leaf;
-        let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
+        let (mut rows, ground) = (std::mem::take(&mut work.peaks.rows), flight.ground.later(from));
         let oscillates = self.watched.oscillates();
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
         let span = self.span_of(self.body_of(&suspects[0]), Coordinates::Modes);
@@ -308,15 +308,7 @@ impl PeakFinder<'_> {
             let of = suspect.of;
             self.set_flight_rows(of, &mut rows);
             let at_rest = flight.rest[suspect.place];
-            let quantity = Quantity {
-                of,
-                rows: &rows,
-                lanes: None,
-                span,
-                at_rest,
-                ground: (ground + slope * from, slope),
-                oscillates,
-            };
+            let quantity = Quantity { of, rows: &rows, lanes: None, span, at_rest, ground, oscillates };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
             suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }

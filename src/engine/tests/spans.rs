@@ -12,7 +12,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch};
+use crate::structure::{Interval, LANES, Lane, LinearGround, LinearLoad, Motion, MotionMut, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -85,7 +85,7 @@ impl Case {
                     };
                 }
             }
-            let load = Load { acceleration: segment.acceleration, slope: segment.slope, length: segment.length };
+            let load = Load { ground: segment.ground_from(0.0), length: segment.length };
             self.push(load, &forces);
             self.end = self.within(self.log.count() - 1, segment.length);
         }
@@ -96,7 +96,7 @@ impl Case {
         let (system, motion) = (&model.system, Motion { q, v });
         log.push(motion, load);
         let [mut loads, mut rates] = [(); 2].map(|()| vec![0.0; model.system.structure.lanes]);
-        system.load_in_flight((load.acceleration, load.slope), &mut loads, &mut rates);
+        system.load_in_flight(load.ground, &mut loads, &mut rates);
         system.add_forces(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
         system.add_forces(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
         let loads = LinearLoad { load: &loads, slope: &rates };
@@ -108,8 +108,7 @@ impl Case {
         let (system, lanes) = (&self.model.system, self.model.system.structure.lanes);
         let (flights, mut scratch) = (self.flights(), Scratch::new(lanes));
         let [mut load, mut rate, mut q, mut v] = [(); 4].map(|()| vec![0.0; lanes]);
-        let Load { acceleration, slope, .. } = flights.load(k);
-        system.load_in_flight((acceleration, slope), &mut load, &mut rate);
+        system.load_in_flight(flights.load(k).ground, &mut load, &mut rate);
         if let Some((forces, rates)) = flights.forces.and_then(|forces| forces.acting(k)) {
             system.add_forces(forces.iter().copied(), Coordinates::Modes, &mut load);
             system.add_forces(rates.iter().copied(), Coordinates::Modes, &mut rate);
@@ -259,9 +258,10 @@ fn no_quantity_leaves_its_envelope() {
             case.model.watched.in_flight().bodies.iter().flat_map(|rows| rows.modes.clone().map(move |m| (rows, m)))
         {
             let ground = [(0.0, 0.0), (1.0, 0.0), (0.5, random.between(-9.0, 9.0))];
-            let (a, s) = random.one_of(&ground);
+            let (acceleration, rate) = random.one_of(&ground);
+            let ground = LinearGround { acceleration, slope: rate };
             let [mut load, mut slope, mut q, mut v] = [(); 4].map(|()| vec![0.0; structure.lanes]);
-            case.model.system.load_in_flight((a, s), &mut load, &mut slope);
+            case.model.system.load_in_flight(ground, &mut load, &mut slope);
             for m in rows.modes.clone() {
                 let (w2, c) = (structure.omega2[m], structure.damping[m]);
                 (q[m], v[m]) = ((load[m] - c * slope[m] / w2) / w2, slope[m] / w2);
@@ -293,7 +293,7 @@ fn no_quantity_leaves_its_envelope() {
                 end: Motion { q: &end[0], v: &end[1] },
                 loads: LinearLoad { load: &load, slope: &slope },
                 rest: &[],
-                ground: (a, s),
+                ground,
                 length,
                 is_suspect: false,
                 searched: 0.0,

@@ -39,8 +39,7 @@ impl FreeTerms<'_> {
         match self {
             FreeTerms::Series(series) => series.dot_each(&system.pairs[p].row.modes, 2, out),
             FreeTerms::Rows(rows, base) => {
-                let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-                rows.enter(p, base.motion(), ground, out);
+                rows.enter(p, base.motion(), base.ground(), out);
             }
         }
     }
