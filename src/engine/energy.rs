@@ -289,8 +289,7 @@ impl System {
         };
         let (flying, h) = (self.structure.in_flight(), length / pieces as f64);
         let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
-        work.q.copy_from_slice(&base.q);
-        work.v.copy_from_slice(&base.v);
+        MotionMut { q: &mut work.q, v: &mut work.v }.copy_from(base.motion());
         let mut series = std::mem::take(&mut work.series);
         for i in 0..pieces {
             let start = Motion { q: &work.q, v: &work.v };

@@ -118,10 +118,7 @@ impl Step {
         MotionMut { q, v }: MotionMut,
     ) {
         match self.dense() {
-            _ if elapsed == 0.0 => {
-                q.copy_from_slice(&base.q);
-                v.copy_from_slice(&base.v);
-            }
+            _ if elapsed == 0.0 => MotionMut { q, v }.copy_from(base.motion()),
             Dense::Flight => {
                 system.load(base, inputs, &mut work.load, &mut work.slope);
                 if !self.fly_back(system, base, elapsed, work, MotionMut { q, v }) {

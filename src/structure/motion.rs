@@ -18,6 +18,14 @@ pub struct MotionMut<'a> {
     pub v: &'a mut [f64],
 }
 
+impl MotionMut<'_> {
+    /// Makes it the same as another.
+    pub fn copy_from(self, Motion { q, v }: Motion) {
+        self.q.copy_from_slice(q);
+        self.v.copy_from_slice(v);
+    }
+}
+
 /// A load per unit of mass that is linear in time, m/s2, on modes kg^1/2 m/s2: all of its entries.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearLoad<'a> {

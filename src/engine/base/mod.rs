@@ -16,7 +16,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::numerics::sum::Sum;
-use crate::structure::{FlightEnergy, LinearGround, Motion};
+use crate::structure::{FlightEnergy, LinearGround, Motion, MotionMut};
 use serde::{Deserialize, Serialize};
 
 /// The coordinates of a vector of motion: floor by floor or mode by mode.
@@ -119,8 +119,7 @@ impl Base {
 
     /// Copies what the motion in a step and its forces follow from.
     pub(super) fn copy_start(&mut self, of: &Base) {
-        self.q.copy_from_slice(&of.q);
-        self.v.copy_from_slice(&of.v);
+        MotionMut { q: &mut self.q, v: &mut self.v }.copy_from(of.motion());
         (self.segment, self.elapsed, self.coordinates) = (of.segment, of.elapsed, of.coordinates);
         self.contacts.copy_from_slice(&of.contacts);
         self.storeys.copy_from_slice(&of.storeys);

@@ -88,15 +88,13 @@ impl Planned {
     /// Copies the motion at the end of another step, and its length.
     pub(crate) fn copy_end(&mut self, of: &Planned) {
         self.length = of.length;
-        self.q.copy_from_slice(&of.q);
-        self.v.copy_from_slice(&of.v);
+        self.motion_mut().copy_from(of.motion());
     }
 
     /// Plans a step of length 0: the event is at the base.
     pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.plan(0.0, Some(event), false, None);
-        self.q.copy_from_slice(&base.q);
-        self.v.copy_from_slice(&base.v);
+        self.motion_mut().copy_from(base.motion());
     }
 }
 

@@ -56,8 +56,7 @@ impl System {
         let Buffers { load, slope, scratch, series, powers, .. } = work;
         let piece = h / pieces as f64;
         let order = exact_order(self.structure.fastest * piece).unwrap_or(MAX_ORDER);
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
+        MotionMut { q, v }.copy_from(base.motion());
         for i in 0..pieces {
             let start = i as f64 * piece;
             let moved = &mut scratch.room()[..load.len()];

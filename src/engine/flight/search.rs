@@ -79,8 +79,7 @@ impl Search<'_> {
                 return;
             }
         }
-        planned.q.copy_from_slice(&self.look.q);
-        planned.v.copy_from_slice(&self.look.v);
+        planned.motion_mut().copy_from(self.look.motion());
         (planned.length, planned.reaches_limit) = (self.look.from, false);
     }
 

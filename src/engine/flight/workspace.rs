@@ -1,7 +1,7 @@
 //! Working data of the search for an event in a flight.
 
 use crate::engine::base::Base;
-use crate::structure::Motion;
+use crate::structure::{Motion, MotionMut};
 
 /// The position of the search in the flight; its content means nothing between calls.
 #[derive(Clone, Debug)]
@@ -34,8 +34,7 @@ impl Look {
 
     pub fn start(&mut self, base: &Base, load: &[f64]) {
         self.from = 0.0;
-        self.q.copy_from_slice(&base.q);
-        self.v.copy_from_slice(&base.v);
+        MotionMut { q: &mut self.q, v: &mut self.v }.copy_from(base.motion());
         self.load.copy_from_slice(load);
     }
 

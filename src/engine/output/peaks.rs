@@ -136,8 +136,7 @@ impl Model {
     fn end_of_flight(&self, state: &State, work: &mut PeakWork, MotionMut { q, v }: MotionMut) -> f64 {
         let State { base, step, inputs, .. } = state;
         if step.kind == StepKind::Flight {
-            q.copy_from_slice(&step.planned.q);
-            v.copy_from_slice(&step.planned.v);
+            MotionMut { q, v }.copy_from(step.planned.motion());
             return step.planned.length;
         }
         let length = base.segment.length;

@@ -106,8 +106,7 @@ impl PeakFinder<'_> {
         let Some((ground, first)) = self.system.watched_segment(base).filter(|_| is_flight) else { return };
         let participation = &self.system.structure.in_flight().participation;
         let [mut q, mut v, mut end_q, mut end_v] = std::mem::take(&mut work.peaks.pieces);
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
+        MotionMut { q: &mut q, v: &mut v }.copy_from(base.motion());
         for number in first..first + AHEAD as u64 {
             let segment = ground.segment(number);
             let acceleration = segment.ground_from(0.0);

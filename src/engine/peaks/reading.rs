@@ -185,12 +185,10 @@ impl PeakFinder<'_> {
         let Window { contacts, equation, solution, .. } = window;
         let contacts = &contacts[..equation.closed];
         if time == 0.0 {
-            q.copy_from_slice(&base.q);
-            v.copy_from_slice(&base.v);
+            MotionMut { q, v }.copy_from(base.motion());
             pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = part.starts[p]);
         } else if time == step.planned.length {
-            q.copy_from_slice(&step.planned.q);
-            v.copy_from_slice(&step.planned.v);
+            MotionMut { q, v }.copy_from(step.planned.motion());
             pairs.copy_from_slice(&solution.end);
         } else {
             let free = FreeMotion::of(self.system, (base, inputs), series, work.buffers);

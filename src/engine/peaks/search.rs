@@ -377,8 +377,7 @@ impl PeakFinder<'_> {
                 Motion { q: flown_q, v: flown_v }
             }
         };
-        q.copy_from_slice(known.q);
-        v.copy_from_slice(known.v);
+        MotionMut { q, v }.copy_from(known);
     }
 
     /// Works out the modal load at a time of a flight.
@@ -405,8 +404,7 @@ fn fly_by_halves(
     [q, v, next_q, next_v]: [&mut Vec<f64>; 4],
 ) {
     let (mut from, mut to, mut length) = (0.0, flight.length, flight.length);
-    q.copy_from_slice(flight.start.q);
-    v.copy_from_slice(flight.start.v);
+    MotionMut { q, v }.copy_from(flight.start);
     while from < time {
         let middle = from + 0.5 * (to - from);
         // No more than rounding is left.
