@@ -18,7 +18,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{Counts, FlightWork, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, LinearLoad, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,15 +76,15 @@ impl System {
     /// A motion as that of the modes, where it oscillates; `modal` is memory.
     pub(super) fn motion_of_modes<'a>(
         &self,
-        (oscillates, q, v): (bool, &'a [f64], &'a [f64]),
+        (oscillates, motion): (bool, Motion<'a>),
         [of_q, of_v]: &'a mut [Vec<f64>; 2],
-    ) -> (&'a [f64], &'a [f64]) {
+    ) -> Motion<'a> {
         match self.structure.oscillators().filter(|_| oscillates) {
             Some(oscillators) => {
-                oscillators.to_modes((q, v), (of_q, of_v));
-                (of_q, of_v)
+                oscillators.to_modes(motion, MotionMut { q: of_q, v: of_v });
+                Motion { q: of_q, v: of_v }
             }
-            None => (q, v),
+            None => motion,
         }
     }
 
@@ -106,9 +106,9 @@ impl System {
         let length = step.planned.length;
         if let Some(of_segment) = self.work_of_segment(base, step) {
             counters.energy_steps += 1;
-            let load = (base.segment.acceleration_at(0.0), base.segment.slope);
+            let ground = base.segment.ground_from(0.0);
             if self.structure.is_classical() {
-                let flight = of_segment.over((base.q.as_chunks().0, base.v.as_chunks().0), load);
+                let flight = of_segment.over((base.q.as_chunks().0, base.v.as_chunks().0), ground);
                 let impact = base.dissipated_by_contacts();
                 base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
                 return;
@@ -116,15 +116,14 @@ impl System {
             if waiting.is_full() {
                 self.settle(base, (waiting, work));
             }
-            let load = Load { acceleration: load.0, slope: load.1, length };
-            waiting.push((&base.q, &base.v), load);
+            waiting.push(base.motion(), Load { ground, length });
             return;
         }
         self.settle(base, (waiting, work));
         counters.energy_steps += if step.is_flight() { self.pieces(length).unwrap_or(1) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.account.modal);
+        let Motion { q, v } = self.motion_of_modes((base.oscillates, base.motion()), &mut work.account.modal);
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), q, v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
         base.add_work_of_dashpots(&work.account.dashpots);
@@ -153,13 +152,10 @@ impl System {
         room: &mut WorkRoom,
     ) {
         let Some(ground) = &self.ground else { return };
-        let flights = waiting.flights_from(0, (&[], &[]));
+        let flights = waiting.flights_from(0, Motion::default());
         let mut first = 0;
         for of_length in flights.loads.chunk_by(|one, next| one.length == next.length) {
-            let flight = |k: usize| {
-                let Load { acceleration, slope, .. } = of_length[k];
-                (flights.motion(first + k), (acceleration, slope))
-            };
+            let flight = |k: usize| (flights.motion(first + k), of_length[k].ground);
             if let Some(work) = ground.work_over(of_length[0].length) {
                 work.over_all(&self.structure, (of_length.len(), flight), account.counts(), room, |flight, done| {
                     account.add_flight(flight, impact);
@@ -235,18 +231,15 @@ impl System {
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         self.fly_in(base, length, work);
         let modal = &mut work.account.modal;
-        let [from, to] = [(&base.q, &base.v), (&work.q, &work.v)].map(|(q, v)| {
-            let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
-            dot(&self.structure.participation, q)
-        });
+        let [from, to] = [base.motion(), Motion { q: &work.q, v: &work.v }]
+            .map(|motion| dot(&self.structure.participation, self.motion_of_modes((base.oscillates, motion), modal).q));
         done.input -= base.segment.acceleration_at(base.elapsed) * (to - from);
     }
 
     /// Work over a flight of any length without forces on the floors, as over whole segments.
     fn integrate_long_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let counts = Counts { above: f64::INFINITY, at_most: 0.0 };
-        let load = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let flight = |_| ((&base.q[..], &base.v[..]), load);
+        let flight = |_| (base.motion(), base.ground());
         let of_length = FlightWork::of(&self.structure, length);
         of_length.over_all(&self.structure, (1, flight), counts, &mut work.account, |flight, _| {
             done.input += flight.input;
@@ -266,15 +259,16 @@ impl System {
         done: &mut Work,
     ) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        window.evaluate(self, FreeMotion::of(self, (base, inputs), series, work), length, (&mut q, &mut v));
+        let free = FreeMotion::of(self, (base, inputs), series, work);
+        window.evaluate(self, free, length, MotionMut { q: &mut q, v: &mut v });
         let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
         let mut interval = std::mem::take(&mut work.interval);
         let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
             let free = match self.flies_in_windows() {
-                true => FreeMotion::Flight(base, (&load, &slope), &mut interval),
+                true => FreeMotion::Flight(base, LinearLoad { load: &load, slope: &slope }, &mut interval),
                 false => FreeMotion::Series(series, powers),
             };
-            window.evaluate(self, free, t, (q, v));
+            window.evaluate(self, free, t, MotionMut { q, v });
         };
         self.integrate(base, motion, window.nodes(length), 0.0, work, done);
         (work.interval, work.load, work.slope, work.q, work.v) = (interval, load, slope, q, v);
@@ -288,19 +282,18 @@ impl System {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some(pieces) = self.pieces(length) else {
             let largest = base.energy.map_or(0.0, |account| account.largest);
-            return match self.is_quiet(base, (&work.load, &work.slope), largest) {
+            return match self.is_quiet(base, work.loads(), largest) {
                 true => self.integrate_quiet_flight(base, work, length, done),
                 false => self.integrate_long_flight(base, work, length, done),
             };
         };
         let (flying, h) = (self.structure.in_flight(), length / pieces as f64);
         let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
-        work.q.copy_from_slice(&base.q);
-        work.v.copy_from_slice(&base.v);
+        MotionMut { q: &mut work.q, v: &mut work.v }.copy_from(base.motion());
         let mut series = std::mem::take(&mut work.series);
         for i in 0..pieces {
-            let start = (work.q.as_slice(), work.v.as_slice());
-            series.expand_flight(flying, start, (&work.load, &work.slope), (h, order));
+            let start = Motion { q: &work.q, v: &work.v };
+            series.expand_flight(flying, start, work.loads(), (h, order));
             self.integrate_series(base, &series, (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);
             series.evaluate(&work.powers, &mut work.q, &mut work.v);

@@ -131,7 +131,7 @@ impl Model {
         self.check_sizes(saved, &state)?;
         require(base.numbers().chain(inputs.numbers()).all(f64::is_finite), "a number in it is not finite")?;
         require(base.last_length >= 0.0, "the length of a step in it is impossible")?;
-        require(base.motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
+        require(base.numbers_of_motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
         require(counters.numbers().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
         self.check_segment(saved)?;
         self.check_contacts(base)?;

@@ -13,7 +13,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
-use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
+use crate::structure::{Motion, MotionMut, MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
@@ -115,17 +115,14 @@ impl Step {
         (base, inputs): (&Base, &Inputs),
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) {
         match self.dense() {
-            _ if elapsed == 0.0 => {
-                q.copy_from_slice(&base.q);
-                v.copy_from_slice(&base.v);
-            }
+            _ if elapsed == 0.0 => MotionMut { q, v }.copy_from(base.motion()),
             Dense::Flight => {
                 system.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(system, base, elapsed, work, (&mut *q, &mut *v)) {
-                    system.fly(base, elapsed, work, (q, v));
+                if !self.fly_back(system, base, elapsed, work, MotionMut { q, v }) {
+                    system.fly(base, elapsed, work, MotionMut { q, v });
                 }
             }
             Dense::Taylor(Solution { series, .. }) => {
@@ -133,10 +130,10 @@ impl Step {
                 series.evaluate(&work.powers, q, v);
             }
             Dense::Onset(onset) => onset.evaluate(elapsed / onset.scale, q, v),
-            Dense::Window(..) if self.evaluate_near_end(system, (base, inputs), elapsed, work, (q, v)) => {}
+            Dense::Window(..) if self.evaluate_near_end(system, (base, inputs), elapsed, work, MotionMut { q, v }) => {}
             Dense::Window(window, series) => {
                 let free = FreeMotion::of(system, (base, inputs), series, work);
-                window.evaluate(system, free, elapsed, (q, v));
+                window.evaluate(system, free, elapsed, MotionMut { q, v });
             }
         }
     }
@@ -149,7 +146,7 @@ impl Step {
         (base, inputs): (&Base, &Inputs),
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) -> bool {
         // Its square is below rounding.
         const NEAR: f64 = 1e-8;
@@ -161,7 +158,7 @@ impl Step {
         if !(system.flies_in_windows() && is_near) {
             return false;
         }
-        let (from, speed) = if is_start { (&base.q, &base.v) } else { (&planned.q, &planned.v) };
+        let from = if is_start { base.motion() } else { planned.motion() };
         system.load(base, inputs, &mut work.load, &mut work.slope);
         if !is_start {
             work.load.iter_mut().zip(&work.slope).for_each(|(load, slope)| *load += slope * planned.length);
@@ -171,10 +168,10 @@ impl Step {
             let force = if is_start { contact.present_force() } else { contact.branch().value(d, rate) };
             system.push_apart_by(p, base.coordinates, force, &mut work.load);
         }
-        system.accelerate(base.coordinates, (from, speed), &work.load, &mut work.node_q);
+        system.accelerate(base.coordinates, from, &work.load, &mut work.node_q);
         for (m, acceleration) in work.node_q.iter().enumerate() {
-            q[m] = from[m] + time * (speed[m] + 0.5 * time * acceleration);
-            v[m] = speed[m] + time * acceleration;
+            q[m] = from.q[m] + time * (from.v[m] + 0.5 * time * acceleration);
+            v[m] = from.v[m] + time * acceleration;
         }
         true
     }
@@ -188,7 +185,7 @@ impl Step {
         base: &Base,
         elapsed: f64,
         work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
+        MotionMut { q, v }: MotionMut,
     ) -> bool {
         // Small enough that no series converges badly and that the growth by damping backwards in time is below
         // rounding.
@@ -207,14 +204,14 @@ impl Step {
         let Some(order) = exact_order(angle) else { return false };
         let end = if self.kind == StepKind::Deferred {
             system.fly_in(base, length, work);
-            (&work.q[..], &work.v[..])
+            Motion { q: &work.q, v: &work.v }
         } else {
-            (&self.planned.q[..], &self.planned.v[..])
+            self.planned.motion()
         };
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }
-        fly_in_one_series(flying, end, (&work.load, &work.slope), (-left, order), (q, v));
+        fly_in_one_series(flying, end, work.loads(), (-left, order), MotionMut { q, v });
         true
     }
 

@@ -4,6 +4,7 @@
 //! a mode takes some 50 instructions, for flights of a length that no other flight has.
 
 use super::lanes::{LANES, Lane};
+use super::motion::LinearGround;
 use super::propagator::ModeIncrement;
 use crate::numerics::polynomial::each;
 
@@ -76,7 +77,7 @@ impl ModeIncrements {
         &self,
         (q, v): (&Lane, &Lane),
         participation: &Lane,
-        (acceleration, slope): (f64, f64),
+        LinearGround { acceleration, slope }: LinearGround,
     ) -> (Lane, Lane) {
         let (pull, rate) = (-acceleration, -slope);
         self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))

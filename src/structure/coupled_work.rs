@@ -9,6 +9,7 @@ use super::equations::Structure;
 use super::form::{Form, Squares, row_times, squares};
 use super::lanes::LANES;
 use super::modes::ModalDamping;
+use super::motion::{LinearGround, Motion};
 use nalgebra::{DMatrix, RowDVector};
 
 /// Number of flights whose work is found together: each entry of a form is read once for all.
@@ -17,8 +18,8 @@ pub(super) const ABREAST: usize = 8;
 /// One number of each of them.
 pub(super) type Abreast = [f64; ABREAST];
 
-/// Displacements and velocities at the start of a flight, and the ground's acceleration, m/s2, and its slope, m/s3.
-pub(super) type Flying<'a> = ((&'a [f64], &'a [f64]), (f64, f64));
+/// The motion at the start of a flight, and the ground's acceleration.
+pub(super) type Flying<'a> = (Motion<'a>, LinearGround);
 
 /// The work over a flight of one length, of one body.
 #[derive(Clone, Debug)]
@@ -123,11 +124,11 @@ impl CoupledWork {
         z.resize((2 * n + 2).next_multiple_of(LANES), [0.0; ABREAST]);
         let (of_q, rest) = z.split_at_mut(n);
         let (of_v, of_ground) = rest.split_at_mut(n);
-        for (k, ((q, v), (a, s))) in flights.enumerate() {
+        for (k, (Motion { q, v }, ground)) in flights.enumerate() {
             let own = self.offset..self.offset + n;
             of_q.iter_mut().zip(&q[own.clone()]).for_each(|(z, q)| z[k] = *q);
             of_v.iter_mut().zip(&v[own]).for_each(|(z, v)| z[k] = *v);
-            (of_ground[0][k], of_ground[1][k]) = (a, s);
+            (of_ground[0][k], of_ground[1][k]) = (ground.acceleration, ground.slope);
         }
         for (l, work) in &self.links {
             add(&mut dashpots[*l], &work.of_vectors(z));

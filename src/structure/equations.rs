@@ -9,6 +9,7 @@ use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
+use super::motion::{LinearLoad, Motion};
 use super::soil::{self, SoilRows};
 use crate::scene::{Link, Place, Scene, Side, Soil};
 use nalgebra::DMatrix;
@@ -345,8 +346,8 @@ impl Structure {
     /// weighted and summed: sum of weights * |q''''|.
     pub fn fourth_derivative_bound(
         &self,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
+        LinearLoad { load, slope }: LinearLoad,
         weights: &[f64],
         scratch: &mut Scratch,
     ) -> f64 {

@@ -3,6 +3,7 @@
 use super::bodies::Body;
 use super::complex_modes::Oscillators;
 use super::modes::{ModalDamping, Modes};
+use super::motion::{Motion, MotionMut};
 use nalgebra::DMatrix;
 
 /// How the oscillators of the bodies in which damping couples modes go with these modes; in other bodies modes are what moves.
@@ -52,7 +53,7 @@ impl FlightModes {
     }
 
     /// Writes displacements and velocities of the modes from the oscillators' coordinates and their rates.
-    pub fn to_modes(&self, from: (&[f64], &[f64]), to: (&mut [f64], &mut [f64])) {
+    pub fn to_modes(&self, from: Motion, to: MotionMut) {
         self.convert(|map| &map.to_modes, from, to);
     }
 
@@ -66,22 +67,22 @@ impl FlightModes {
     }
 
     /// Writes the oscillators' coordinates and their rates from displacements and velocities of the modes.
-    pub fn from_modes(&self, from: (&[f64], &[f64]), to: (&mut [f64], &mut [f64])) {
+    pub fn from_modes(&self, from: Motion, to: MotionMut) {
         self.convert(|map| &map.from_modes, from, to);
     }
 
     fn convert(
         &self,
         matrix: impl Fn(&OscillatorMap) -> &DMatrix<f64>,
-        from: (&[f64], &[f64]),
-        (q, v): (&mut [f64], &mut [f64]),
+        Motion { q: from_q, v: from_v }: Motion,
+        MotionMut { q, v }: MotionMut,
     ) {
-        q.copy_from_slice(from.0);
-        v.copy_from_slice(from.1);
+        q.copy_from_slice(from_q);
+        v.copy_from_slice(from_v);
         for map in &self.maps {
             let own = map.offset..map.offset + map.count;
-            let to = (&mut q[own.clone()], &mut v[own.clone()]);
-            multiply(matrix(map).as_slice(), (&from.0[own.clone()], &from.1[own]), to);
+            let to = MotionMut { q: &mut q[own.clone()], v: &mut v[own.clone()] };
+            multiply(matrix(map).as_slice(), Motion { q: &from_q[own.clone()], v: &from_v[own] }, to);
         }
     }
 
@@ -103,7 +104,7 @@ impl FlightModes {
 
 /// A square matrix, column by column, times a vector in two parts.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn multiply(matrix: &[f64], (q, v): (&[f64], &[f64]), (to_q, to_v): (&mut [f64], &mut [f64])) {
+fn multiply(matrix: &[f64], Motion { q, v }: Motion, MotionMut { q: to_q, v: to_v }: MotionMut) {
     let count = to_q.len();
     to_q.fill(0.0);
     to_v.fill(0.0);

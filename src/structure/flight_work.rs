@@ -11,6 +11,7 @@ use super::bodies::Body;
 use super::coupled_work::{ABREAST, Abreast, CoupledEnergy, CoupledWork, Flying};
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
+use super::motion::{LinearGround, Motion, MotionMut};
 use super::propagator::ModeIncrement;
 use super::series::power::NodeRoom;
 use crate::numerics::quadrature::TWELVE_POINTS;
@@ -141,7 +142,7 @@ impl FlightWork {
             let together = start..count.min(start + ABREAST);
             let coupled = self.over_coupled(together.clone().map(&flight), room);
             for (k, (motion, load)) in together.map(&flight).enumerate() {
-                let mut of_flight = self.over((motion.0.as_chunks().0, motion.1.as_chunks().0), load);
+                let mut of_flight = self.over((motion.q.as_chunks().0, motion.v.as_chunks().0), load);
                 of_flight.input += coupled.input[k];
                 of_flight.viscous += coupled.viscous[k];
                 of_flight.kinetic += coupled.kinetic[k];
@@ -171,7 +172,8 @@ impl FlightWork {
 
     /// Over one flight, in bodies in which it couples none.
     #[inline(always)]
-    pub fn over(&self, (q, v): (&[Lane], &[Lane]), (a, s): (f64, f64)) -> FlightEnergy {
+    pub fn over(&self, (q, v): (&[Lane], &[Lane]), ground: LinearGround) -> FlightEnergy {
+        let LinearGround { acceleration: a, slope: s } = ground;
         let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];
         for ((mode, q), v) in self.modes.iter().zip(q).zip(v) {
             let ModeForms { viscous: [qq, qv, vv], viscous_mixed: [qa, qs, va, vs], input: [aq, av, sq, sv], omega2 } =
@@ -204,7 +206,7 @@ impl FlightEnergy {
     fn raise_to_oscillators(
         &mut self,
         structure: &Structure,
-        motion: (&[f64], &[f64]),
+        motion: Motion,
         Counts { above, at_most }: Counts,
         [q, v]: &mut [Vec<f64>; 2],
     ) {
@@ -213,7 +215,7 @@ impl FlightEnergy {
         (self.kinetic, self.strain) = match most <= above || at_most <= above {
             true => (0.0, 0.0),
             false => {
-                oscillators.to_modes(motion, (q, v));
+                oscillators.to_modes(motion, MotionMut { q, v });
                 structure.energies(q, v)
             }
         };

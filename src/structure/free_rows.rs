@@ -4,6 +4,7 @@
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{POLYNOMIAL_TERMS, PolynomialMaker};
+use super::motion::{LinearGround, Motion};
 use crate::numerics::polynomial::each;
 use std::array::from_fn;
 
@@ -51,12 +52,12 @@ impl FreeRows {
 
     /// Writes the terms of a pair's distance from power 2 on, m, from the motion at the start, the ground acceleration
     /// there, m/s2, and its slope.
-    pub fn enter(&self, pair: usize, (q, v): (&[f64], &[f64]), (acceleration, slope): (f64, f64), out: &mut [f64]) {
+    pub fn enter(&self, pair: usize, Motion { q, v }: Motion, ground: LinearGround, out: &mut [f64]) {
         let PairRows { by_motion, by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
         let mut terms = add_up(by_motion, q, v);
-        let ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
-        for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(ground) {
-            *terms = each(|i| terms[i] + (by_acceleration[i] * acceleration + by_slope[i] * slope));
+        let by_ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
+        for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(by_ground) {
+            *terms = each(|i| terms[i] + (by_acceleration[i] * ground.acceleration + by_slope[i] * ground.slope));
         }
         out[2..POLYNOMIAL_TERMS].copy_from_slice(&terms.as_flattened()[2..]);
     }
@@ -91,7 +92,7 @@ fn add_up(rows: &[[[Lane; BLOCKS]; 2]], q: &[f64], v: &[f64]) -> [Lane; BLOCKS] 
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::{Interval, Scratch, dot};
+    use crate::structure::{Interval, LinearLoad, MotionMut, Scratch, dot};
 
     /// Both buildings flown exactly to some times, against the polynomial of a distance between their floors.
     #[test]
@@ -112,14 +113,17 @@ mod tests {
         let (acceleration, slope) = (2.5, -40.0);
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
         terms.resize(FreeRows::TERMS, f64::NAN);
-        rows.enter(0, (&q, &v), (acceleration, slope), &mut terms);
+        let motion = Motion { q: &q, v: &v };
+        rows.enter(0, motion, LinearGround { acceleration, slope }, &mut terms);
         let [load, rate] =
             [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
+        let loads = LinearLoad { load: &load, slope: &rate };
         let (mut end_q, mut end_v) = (vector(0.0), vector(0.0));
         for i in 1..=20 {
             let x = f64::from(i) / 20.0;
             let interval = Interval::new(&structure, x * length);
-            interval.fly((&q, &v), (&load, &rate), (&mut end_q, &mut end_v), &mut Scratch::new(structure.lanes));
+            let end = MotionMut { q: &mut end_q, v: &mut end_v };
+            interval.fly(motion, loads, end, &mut Scratch::new(structure.lanes));
             let value = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
             let exact = dot(&row, &end_q);
             assert!((value - exact).abs() < 2e-13, "{value} instead of {exact} at {x}");

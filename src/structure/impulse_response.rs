@@ -3,6 +3,7 @@
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{FURTHEST, POLYNOMIAL_TERMS, PolynomialMaker};
+use super::motion::MotionMut;
 use super::series::sums::sum_blocks;
 use crate::numerics::polynomial::{COUNT, each};
 
@@ -122,14 +123,14 @@ impl ImpulseResponse {
 
     /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
     /// (time left)^k F. The terms are summed first, from the smallest on, and meet the larger motion as one sum.
-    pub fn push(&self, row: &[f64], moments: &[f64], motion: (&mut [f64], &mut [f64])) {
+    pub fn push(&self, row: &[f64], moments: &[f64], motion: MotionMut) {
         push(self, row, moments, motion);
     }
 }
 
 /// See [`ImpulseResponse::push`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
+fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], MotionMut { q, v }: MotionMut) {
     let width = response.lanes / LANES;
     let (terms, row) = (response.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
     let terms = (&terms[width..moments.len() * width], width);

@@ -4,6 +4,7 @@ use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
+use super::motion::{LinearGround, LinearLoad, Motion, MotionMut};
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The exact flight of all modes over one interval length.
@@ -64,19 +65,19 @@ impl Interval {
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
     /// no modes.
-    pub fn fly_uncoupled(&self, motion: (&[f64], &[f64]), loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
+    pub fn fly_uncoupled(&self, motion: Motion, loads: LinearLoad, end: MotionMut) {
         fly_modes(&self.modes, motion, loads, end);
     }
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
     pub fn fly(
         &self,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        (end_q, end_v): (&mut [f64], &mut [f64]),
+        Motion { q, v }: Motion,
+        LinearLoad { load, slope }: LinearLoad,
+        MotionMut { q: end_q, v: end_v }: MotionMut,
         scratch: &mut Scratch,
     ) {
-        fly_modes(&self.modes, (q, v), (load, slope), (end_q, end_v));
+        fly_modes(&self.modes, Motion { q, v }, LinearLoad { load, slope }, MotionMut { q: end_q, v: end_v });
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
@@ -98,14 +99,14 @@ impl Interval {
     pub fn fly_from(
         &self,
         time: f64,
-        motion: (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        end: (&mut [f64], &mut [f64]),
+        motion: Motion,
+        LinearLoad { load, slope }: LinearLoad,
+        end: MotionMut,
         scratch: &mut Scratch,
     ) {
         let mut grown = std::mem::take(&mut scratch.y);
         grown.iter_mut().zip(load.iter().zip(slope)).for_each(|(grown, (load, slope))| *grown = load + slope * time);
-        self.fly(motion, (&grown, slope), end, scratch);
+        self.fly(motion, LinearLoad { load: &grown, slope }, end, scratch);
         scratch.y = grown;
     }
 
@@ -114,9 +115,9 @@ impl Interval {
     #[inline(always)]
     pub fn fly_on_ground(
         &self,
-        (q, v): (&[f64], &[f64]),
-        (participation, (acceleration, slope)): (&[f64], (f64, f64)),
-        (end_q, end_v): (&mut [f64], &mut [f64]),
+        Motion { q, v }: Motion,
+        (participation, ground): (&[f64], LinearGround),
+        MotionMut { q: end_q, v: end_v }: MotionMut,
     ) -> bool {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
@@ -126,7 +127,7 @@ impl Interval {
         let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
         for c in 0..width {
-            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], (acceleration, slope));
+            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], ground);
             for i in 0..LANES {
                 // Finite only if all of its terms are.
                 sum[i] += q[i] + v[i];
@@ -165,9 +166,9 @@ fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
     modes: &[ModeIncrements],
-    (q, v): (&[f64], &[f64]),
-    (load, slope): (&[f64], &[f64]),
-    (end_q, end_v): (&mut [f64], &mut [f64]),
+    Motion { q, v }: Motion,
+    LinearLoad { load, slope }: LinearLoad,
+    MotionMut { q: end_q, v: end_v }: MotionMut,
 ) -> Lane {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);

@@ -24,6 +24,7 @@
 //! | `series/` | the motion as a power series in time: its terms, their sums |
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
+//! | `motion.rs` | displacements with velocities, a load or the ground's acceleration with its rate |
 //! | `mode_polynomials.rs`, `free_rows.rs` | the motion of one mode, or of a distance, over a time as a polynomial |
 //! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
 
@@ -51,6 +52,7 @@ mod lanes;
 mod links;
 mod mode_polynomials;
 mod modes;
+mod motion;
 mod propagator;
 mod series;
 mod short_flight;
@@ -70,6 +72,7 @@ pub(crate) use lanes::from_left_to_right;
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use links::LinkRow;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
+pub use motion::{LinearGround, LinearLoad, Motion, MotionMut};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::MotionSeries;
 pub use series::expand::{EXACT, LONGEST_ANGLE, PIECE_ANGLE, PairForces, flight_order};

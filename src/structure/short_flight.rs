@@ -2,6 +2,7 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
+use super::motion::{LinearLoad, Motion, MotionMut};
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
@@ -23,10 +24,10 @@ pub fn exact_order(angle: f64) -> Option<usize> {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn fly_in_one_series(
     structure: &Structure,
-    motion: (&[f64], &[f64]),
-    loads: (&[f64], &[f64]),
+    motion: Motion,
+    loads: LinearLoad,
     (h, order): (f64, usize),
-    end: (&mut [f64], &mut [f64]),
+    end: MotionMut,
 ) {
     if order <= TINY_ANGLE_ORDER {
         // Terms whose number is known stay in registers.
@@ -40,10 +41,10 @@ pub fn fly_in_one_series(
 #[inline(always)]
 fn fly<const TERMS: usize>(
     structure: &Structure,
-    (q, v): (&[f64], &[f64]),
-    (load, slope): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
+    LinearLoad { load, slope }: LinearLoad,
     (h, order): (f64, usize),
-    (end_q, end_v): (&mut [f64], &mut [f64]),
+    MotionMut { q: end_q, v: end_v }: MotionMut,
 ) {
     let (h2, rate) = (h * h, 1.0 / h);
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
@@ -122,16 +123,17 @@ mod tests {
         let structure = Structure::of(&scene).unwrap();
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
         let (q, v, load, slope) = (vector(0.1), vector(0.7), vector(1.9), vector(2.3));
+        let (motion, loads) = (Motion { q: &q, v: &v }, LinearLoad { load: &load, slope: &slope });
         let mut series = MotionSeries::new(structure.lanes, MAX_TERMS - 1);
         let mut powers = Powers::default();
         let [mut q0, mut v0, mut q1, mut v1] = [(); 4].map(|()| vec![f64::NAN; structure.lanes]);
         for angle in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
             let h = angle / structure.fastest;
             let order = exact_order(structure.fastest * h).unwrap();
-            series.expand_flight(&structure, (&q, &v), (&load, &slope), (h, order));
+            series.expand_flight(&structure, motion, loads, (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
-            fly_in_one_series(&structure, (&q, &v), (&load, &slope), (h, order), (&mut q1, &mut v1));
+            fly_in_one_series(&structure, motion, loads, (h, order), MotionMut { q: &mut q1, v: &mut v1 });
             let bits = |q: &[f64], v: &[f64]| q.iter().chain(v).map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&q0, &v0), bits(&q1, &v1), "{angle}");
         }

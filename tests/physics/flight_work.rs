@@ -3,7 +3,10 @@
 
 use crate::common::{self, scene};
 use pounding::scene::{Link, Place, Scene};
-use pounding::structure::{Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, Scratch, Structure, WorkRoom, dot};
+use pounding::structure::{
+    Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinearGround, LinearLoad, Motion, MotionMut, Scratch,
+    Structure, WorkRoom, dot,
+};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
 fn structure([left, right]: [(f64, f64); 2]) -> Structure {
@@ -14,11 +17,16 @@ fn structure([left, right]: [(f64, f64); 2]) -> Structure {
     Structure::of(&scene).ok().unwrap()
 }
 
+fn ground((acceleration, slope): (f64, f64)) -> LinearGround {
+    LinearGround { acceleration, slope }
+}
+
 /// The motion at the end of a flight of `length` seconds.
 fn end(structure: &Structure, (q, v): (Lane, Lane), load: (f64, f64), length: f64) -> (Lane, Lane) {
     let (mut end_q, mut end_v) = ([0.0; LANES], [0.0; LANES]);
     let participation = &structure.participation;
-    Interval::new(structure, length).fly_on_ground((&q, &v), (participation, load), (&mut end_q, &mut end_v));
+    let (start, end) = (Motion { q: &q, v: &v }, MotionMut { q: &mut end_q, v: &mut end_v });
+    Interval::new(structure, length).fly_on_ground(start, (participation, ground(load)), end);
     (end_q, end_v)
 }
 
@@ -39,7 +47,7 @@ fn work_of_the_ground_and_of_damping_balance_the_energy() {
         let structure = structure(modes);
         let work = FlightWork::of(&structure, length);
         for load in [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
-            let over = work.over((&[START.0], &[START.1]), load);
+            let over = work.over((&[START.0], &[START.1]), ground(load));
             let (q, v) = end(&structure, START, load, length);
             let (kinetic, strain) = structure.energies(&START.0, &START.1);
             let (end_kinetic, end_strain) = structure.energies(&q, &v);
@@ -77,7 +85,7 @@ fn work_of_the_ground_is_that_of_the_equation_of_motion() {
                 let lost = lost.iter().fold(0.0_f64, |size, term| size.max(term.abs()));
                 size = size.max((p * a * q[m].abs().max(START.0[m].abs())).abs()).max((p * s * lost).abs());
             }
-            let input = work.over((&[START.0], &[START.1]), (a, s)).input;
+            let input = work.over((&[START.0], &[START.1]), ground((a, s))).input;
             assert!(
                 (input - exact).abs() <= rounding(&structure, length) * size,
                 "{modes:?} over {length} s: {input} instead of {exact}"
@@ -87,7 +95,7 @@ fn work_of_the_ground_is_that_of_the_equation_of_motion() {
 }
 
 /// Displacements and velocities.
-type Motion = [Vec<f64>; 2];
+type State = [Vec<f64>; 2];
 
 const LOADS: [(f64, f64); 4] = [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)];
 
@@ -124,25 +132,26 @@ fn coupled() -> Vec<Structure> {
 }
 
 /// The motion after `time` seconds.
-fn fly(structure: &Structure, start: &Motion, (a, s): (f64, f64), time: f64) -> Motion {
+fn fly(structure: &Structure, start: &State, (a, s): (f64, f64), time: f64) -> State {
     let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
-    let load = [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
+    let load = [a, s].map(|size: f64| structure.participation.iter().map(|p| -p * size).collect::<Vec<_>>());
     let mut scratch = Scratch::new(structure.lanes);
-    let load = (&load[0][..], &load[1][..]);
-    Interval::new(structure, time).fly((&start[0], &start[1]), load, (&mut q, &mut v), &mut scratch);
+    let load = LinearLoad { load: &load[0], slope: &load[1] };
+    let (start, end) = (Motion { q: &start[0], v: &start[1] }, MotionMut { q: &mut q, v: &mut v });
+    Interval::new(structure, time).fly(start, load, end, &mut scratch);
     [q, v]
 }
 
 /// What flights from one motion do under each of the loads, and the work of the dashpots of links.
-fn over_all(structure: &Structure, start: &Motion, length: f64) -> Vec<(FlightEnergy, Vec<f64>)> {
+fn over_all(structure: &Structure, start: &State, length: f64) -> Vec<(FlightEnergy, Vec<f64>)> {
     let mut moving = start.clone();
     if let Some(oscillators) = structure.oscillators() {
         let [q, v] = &mut moving;
-        oscillators.from_modes((&start[0], &start[1]), (q, v));
+        oscillators.from_modes(Motion { q: &start[0], v: &start[1] }, MotionMut { q, v });
     }
     let mut found = Vec::new();
     // More than are worked out together, so that each is so beside others.
-    let flights = (11, |k: usize| ((&moving[0][..], &moving[1][..]), LOADS[k % LOADS.len()]));
+    let flights = (11, |k: usize| (Motion { q: &moving[0], v: &moving[1] }, ground(LOADS[k % LOADS.len()])));
     FlightWork::of(structure, length).over_all(
         structure,
         flights,
@@ -162,7 +171,7 @@ fn over_all(structure: &Structure, start: &Motion, length: f64) -> Vec<(FlightEn
 fn work_of_dashpots_that_couple_modes_balances_the_energy() {
     for (structure, length) in coupled().iter().flat_map(|of| LENGTHS.map(|length| (of, length))) {
         let modes = structure.modes_of_both();
-        let start: Motion = [0.3, -0.5]
+        let start: State = [0.3, -0.5]
             .map(|size| (0..structure.lanes).map(|m| if m < modes { size / (m + 1) as f64 } else { 0.0 }).collect());
         for (k, (over, dashpots)) in over_all(structure, &start, length).iter().enumerate() {
             let load = LOADS[k % LOADS.len()];
@@ -186,7 +195,7 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
 }
 
 /// The work of each link's dashpot over a flight, by Romberg's rule over the powers at equally spaced times.
-fn work_of_dashpots(structure: &Structure, start: &Motion, (a, s): (f64, f64), length: f64) -> Vec<f64> {
+fn work_of_dashpots(structure: &Structure, start: &State, (a, s): (f64, f64), length: f64) -> Vec<f64> {
     const HALVINGS: usize = 8;
     let h = length / f64::from(1 << HALVINGS);
     let mut motion = start.clone();

@@ -177,7 +177,7 @@ fn fly_many<const IS_NOTED: bool>(
         }
         if IS_NOTED {
             let motion = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
-            account.add(motion, (segment.acceleration_at(0.0), segment.slope));
+            account.add(motion, segment.ground_from(0.0));
         }
         std::mem::swap(&mut base.q, &mut step.planned.q);
         std::mem::swap(&mut base.v, &mut step.planned.v);
@@ -190,9 +190,9 @@ fn fly_many<const IS_NOTED: bool>(
 fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &Base, step: &mut Step) -> bool {
     let Some(interval) = ground.prepared(segment) else { return false };
     interval.fly_on_ground(
-        (&base.q, &base.v),
-        (&model.system.structure.in_flight().participation, (segment.acceleration_at(0.0), segment.slope)),
-        (&mut step.planned.q, &mut step.planned.v),
+        base.motion(),
+        (&model.system.structure.in_flight().participation, segment.ground_from(0.0)),
+        step.planned.motion_mut(),
     )
 }
 
@@ -213,16 +213,16 @@ fn fly_few<const WIDTH: usize, const IS_NOTED: bool>(
     let participation = few::<WIDTH>(&model.system.structure.in_flight().participation);
     let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
     let mut flown = 0;
-    for (end, length, load) in ground.of_record(segments) {
+    for (end, length, acceleration) in ground.of_record(segments) {
         if until < end || length != interval.length {
             break;
         }
         let (mut end_q, mut end_v) = (q, v);
         for c in 0..WIDTH {
-            (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
+            (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], acceleration);
         }
         if IS_NOTED {
-            account.add((&q, &v), load);
+            account.add((&q, &v), acceleration);
         }
         (q, v) = (end_q, end_v);
         flown += 1;

@@ -225,7 +225,7 @@ impl Model {
         if let Some(event) = planned.event {
             counters.events += 1;
             base.clearance.restart();
-            work.log.close((&base.q, &base.v));
+            work.log.close(base.motion());
             self.system.settle(base, work.for_energy());
             work.note(event, base.time());
             let Base { oscillates, q, v, .. } = base;

@@ -6,10 +6,10 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
-use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::{onset, taylor};
+use crate::structure::LinearLoad;
 
 impl Model {
     /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
@@ -40,8 +40,8 @@ impl Model {
         let Workspace { buffers, look, .. } = work;
         self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
-        come_to_rest(at.base, buffers);
-        let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
+        come_to_rest(at.base, buffers.loads());
+        let longest = self.system.accounted_flight(at.base, buffers.loads(), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
         std::mem::swap(&mut step.planned.load, &mut buffers.load);
@@ -68,7 +68,7 @@ impl Model {
             return plan_zero_length(at.base, planned, taylor, event);
         }
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
-        if let Some(closed) = come_to_rest(at.base, buffers) {
+        if let Some(closed) = come_to_rest(at.base, buffers.loads()) {
             return plan_zero_length(at.base, planned, taylor, Event::Release(closed));
         }
         if !is_near_rigid && !at.base.is_yielding() {
@@ -101,10 +101,9 @@ impl Model {
     }
 }
 
-/// Lets the base come to rest where its motion has died out and no load in `work` drives it; returns a contact that is to be
-/// released then.
-fn come_to_rest(base: &mut Base, work: &Buffers) -> Option<usize> {
-    let is_driven = work.load.iter().chain(&work.slope).any(|load| *load != 0.0);
+/// Lets the base come to rest where its motion has died out and no load drives it; returns a contact that is to be released then.
+fn come_to_rest(base: &mut Base, LinearLoad { load, slope }: LinearLoad) -> Option<usize> {
+    let is_driven = load.iter().chain(slope).any(|load| *load != 0.0);
     if is_driven { None } else { base.come_to_rest() }
 }
 

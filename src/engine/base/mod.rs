@@ -16,7 +16,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::numerics::sum::Sum;
-use crate::structure::FlightEnergy;
+use crate::structure::{FlightEnergy, LinearGround, Motion, MotionMut};
 use serde::{Deserialize, Serialize};
 
 /// The least motion that counts, m and m/s, or the same of modes: smaller ones would leave forces, which grow with powers of it,
@@ -112,10 +112,18 @@ impl Base {
         self.dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
     }
 
+    /// The ground's acceleration from the base on.
+    pub(super) fn ground(&self) -> LinearGround {
+        self.segment.ground_from(self.elapsed)
+    }
+
+    pub(super) fn motion(&self) -> Motion<'_> {
+        Motion { q: &self.q, v: &self.v }
+    }
+
     /// Copies what the motion in a step and its forces follow from.
     pub(super) fn copy_start(&mut self, of: &Base) {
-        self.q.copy_from_slice(&of.q);
-        self.v.copy_from_slice(&of.v);
+        MotionMut { q: &mut self.q, v: &mut self.v }.copy_from(of.motion());
         (self.segment, self.elapsed, self.coordinates) = (of.segment, of.elapsed, of.coordinates);
         self.contacts.copy_from_slice(&of.contacts);
         self.storeys.copy_from_slice(&of.storeys);

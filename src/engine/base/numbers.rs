@@ -39,7 +39,7 @@ impl Base {
     }
 
     /// Displacements and velocities, with the contacts' penetrations and rates.
-    pub(crate) fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn numbers_of_motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
         let of_storeys = self.storeys.iter().flat_map(Storey::numbers);
         self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_storeys)

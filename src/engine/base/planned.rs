@@ -5,6 +5,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::excitation::inputs::Inputs;
 use crate::numerics::roots;
+use crate::structure::{Motion, MotionMut};
 
 /// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,18 +76,25 @@ impl Planned {
         self.ends.clear();
     }
 
+    /// The motion at the end.
+    pub(crate) fn motion(&self) -> Motion<'_> {
+        Motion { q: &self.q, v: &self.v }
+    }
+
+    pub(crate) fn motion_mut(&mut self) -> MotionMut<'_> {
+        MotionMut { q: &mut self.q, v: &mut self.v }
+    }
+
     /// Copies the motion at the end of another step, and its length.
     pub(crate) fn copy_end(&mut self, of: &Planned) {
         self.length = of.length;
-        self.q.copy_from_slice(&of.q);
-        self.v.copy_from_slice(&of.v);
+        self.motion_mut().copy_from(of.motion());
     }
 
     /// Plans a step of length 0: the event is at the base.
     pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.plan(0.0, Some(event), false, None);
-        self.q.copy_from_slice(&base.q);
-        self.v.copy_from_slice(&base.v);
+        self.motion_mut().copy_from(base.motion());
     }
 }
 

@@ -28,7 +28,7 @@
 use crate::engine::excitation::record::Ahead;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, Structure, from_left_to_right};
+use crate::structure::{LANES, Lane, LinearLoad, Motion, Structure, from_left_to_right};
 use std::ops::Range;
 
 /// Largest number of segments for which a row is looked ahead.
@@ -170,14 +170,14 @@ impl ModeRates {
         };
         let dragged = (0..participation.len()).map(|m| pulls(m).abs()).sum();
         let at_rest = vec![0.0; participation.len()];
-        let Seen { sums, .. } = self.see(row, (&at_rest, &at_rest), &self.gains);
+        let Seen { sums, .. } = self.see(row, Motion { q: &at_rest, v: &at_rest }, &self.gains);
         Gain { sums, dragged, shaken: share_of_ground.abs() }
     }
 
     /// Writes upper bounds on sqrt(v^2 + w^2 q^2) of all modes in a motion. Returns a bound on the contribution of the
     /// displacements to any row's quantity, m.
     #[inline(always)]
-    pub fn amplitudes(&self, (q, v): (&[f64], &[f64]), amplitude: &mut [f64]) -> f64 {
+    pub fn amplitudes(&self, Motion { q, v }: Motion, amplitude: &mut [f64]) -> f64 {
         let [(q, _), (v, _)] = [q, v].map(|vector| vector.as_chunks::<LANES>());
         let mut size = [0.0; LANES];
         let blocks = self.blocks.iter().zip(q).zip(v);
@@ -203,7 +203,7 @@ impl ModeRates {
 
     /// For one row, its quantity in a motion, and the sums over modes in its bounds for those amplitudes.
     #[inline(always)]
-    pub fn see(&self, row: FlightRow, motion: (&[f64], &[f64]), amplitude: &[f64]) -> Seen {
+    pub fn see(&self, row: FlightRow, motion: Motion, amplitude: &[f64]) -> Seen {
         let seen = self.see_modes(row.sizes(), motion, amplitude);
         match row {
             FlightRow::OfModes(_) => seen,
@@ -215,7 +215,7 @@ impl ModeRates {
 
     /// The same of a row over the modes.
     #[inline(always)]
-    fn see_modes(&self, row: &[f64], (q, v): (&[f64], &[f64]), amplitude: &[f64]) -> Seen {
+    fn see_modes(&self, row: &[f64], Motion { q, v }: Motion, amplitude: &[f64]) -> Seen {
         let [row, amplitude, q, v] = [row, amplitude, q, v].map(|all| all.as_chunks::<LANES>().0);
         // Equal lengths: no bounds checks below.
         let count = self.blocks.len();
@@ -336,8 +336,8 @@ impl Together {
 /// is linear in time and impulses of which each is at most a number, N s, times a row.
 pub fn pushed<'a>(
     omega2: &[f64],
-    (q, v): (&[f64], &[f64]),
-    (load, slope): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
+    LinearLoad { load, slope }: LinearLoad,
     h: f64,
     impulses: impl Iterator<Item = (&'a [f64], f64)>,
     amplitudes: &mut [f64],

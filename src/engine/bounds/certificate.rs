@@ -6,7 +6,7 @@
 //! power series by the sum of its terms ([`crate::structure::MotionSeries::bound_fourths`]).
 
 use crate::numerics::roots::{deviation, highest_of_cubic};
-use crate::structure::{Scratch, Structure};
+use crate::structure::{LinearLoad, Motion, Scratch, Structure};
 
 /// One bound for all rows with limits; constant during a run.
 #[derive(Debug)]
@@ -30,8 +30,8 @@ impl Certificate {
     pub fn deviation(
         &self,
         structure: &Structure,
-        motion: (&[f64], &[f64]),
-        loads: (&[f64], &[f64]),
+        motion: Motion,
+        loads: LinearLoad,
         h: f64,
         scratch: &mut Scratch,
     ) -> f64 {

@@ -26,8 +26,8 @@ pub fn course_of(
     bounds: &ModeBounds,
     modes: Range<usize>,
 ) -> Course {
-    let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
-    let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
+    let [q, rate] = [flight.start.q, flight.start.v].map(|vector| &vector[modes.clone()]);
+    let [end_q, end_rate] = [flight.end.q, flight.end.v].map(|vector| &vector[modes.clone()]);
     let [first, last, on_q, on_v] =
         [&bounds.first, &bounds.last, &bounds.fourth_on_q, &bounds.fourth_on_v].map(|vector| &vector[modes.clone()]);
     let [start, end] = known_ends.unwrap_or_else(|| {

@@ -1,16 +1,20 @@
 //! Flights that follow each other, on the ground's motion and under forces on floors.
 
-use crate::structure::Structure;
+use crate::structure::{LinearGround, LinearLoad, Motion, Structure};
 
 /// The load of a flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Ground acceleration at the start, m/s2.
-    pub acceleration: f64,
-    /// Its slope, m/s3.
-    pub slope: f64,
+    pub ground: LinearGround,
     /// Length, s; 0: a gap, as contact or yielding has changed the motion before the next flight.
     pub length: f64,
+}
+
+impl Load {
+    /// That of a gap after it.
+    pub fn gap(self) -> Load {
+        Load { ground: LinearGround { slope: 0.0, ..self.ground.later(self.length) }, length: 0.0 }
+    }
 }
 
 /// Flights that follow each other, or the first part of one: the motions at their starts, and at the end of the last one, if it is no gap.
@@ -20,7 +24,7 @@ pub struct Flights<'a> {
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub loads: &'a [Load],
-    pub end: (&'a [f64], &'a [f64]),
+    pub end: Motion<'a>,
     /// The forces on floors, in scenes that have them.
     pub forces: Option<Forces<'a>>,
 }
@@ -50,8 +54,8 @@ impl<'a> Forces<'a> {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn set_energies(
     Structure { omega2, damping, .. }: &Structure,
-    (q, v): (&[f64], &[f64]),
-    (load, slope): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
+    LinearLoad { load, slope }: LinearLoad,
     out: &mut [f64],
 ) {
     // Equal lengths: no bounds checks below.
@@ -75,19 +79,16 @@ impl<'a> Flights<'a> {
     }
 
     /// The motion at the start of flight `k`, or at the end of the last one.
-    pub fn motion(&self, k: usize) -> (&'a [f64], &'a [f64]) {
+    pub fn motion(&self, k: usize) -> Motion<'a> {
         if k == self.loads.len() {
             return self.end;
         }
         let range = k * self.lanes..(k + 1) * self.lanes;
-        (&self.q[range.clone()], &self.v[range])
+        Motion { q: &self.q[range.clone()], v: &self.v[range] }
     }
 
     /// The load by the ground's motion in flight `k`; at the end of the last one that of a gap.
     pub fn load(&self, k: usize) -> Load {
-        self.loads.get(k).copied().unwrap_or_else(|| {
-            let Load { acceleration, slope, length } = self.loads.last().copied().unwrap_or_default();
-            Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 }
-        })
+        self.loads.get(k).copied().unwrap_or_else(|| self.loads.last().copied().unwrap_or_default().gap())
     }
 }

@@ -12,7 +12,7 @@
 //! no further tests, nor does one that oscillates for ever without reaching a limit.
 
 use crate::engine::quantities::flight_row::FlightRow;
-use crate::structure::{Body, Structure};
+use crate::structure::{Body, LinearLoad, Motion, Structure};
 
 /// Margin for rounding, relative to the terms of a quantity.
 const MARGIN: f64 = 1e-10;
@@ -20,8 +20,8 @@ const MARGIN: f64 = 1e-10;
 /// A modal motion from which a flight begins, under a load that is linear in time.
 pub struct Oscillation<'a> {
     structure: &'a Structure,
-    motion: (&'a [f64], &'a [f64]),
-    loads: (&'a [f64], &'a [f64]),
+    motion: Motion<'a>,
+    loads: LinearLoad<'a>,
     /// Length of the flight, s.
     length: f64,
 }
@@ -31,17 +31,17 @@ impl<'a> Oscillation<'a> {
     /// quasi-static displacement is not worked out.
     pub fn of(
         structure: &'a Structure,
-        motion: (&'a [f64], &'a [f64]),
-        loads: (&'a [f64], &'a [f64]),
+        motion: Motion<'a>,
+        loads: LinearLoad<'a>,
         length: f64,
     ) -> Option<Oscillation<'a>> {
-        let is_known = structure.is_classical() || loads.1.iter().all(|slope| *slope == 0.0);
+        let is_known = structure.is_classical() || loads.slope.iter().all(|slope| *slope == 0.0);
         is_known.then_some(Oscillation { structure, motion, loads, length })
     }
 
     /// Of a mode: quasi-static displacement, its change over the flight, radius of the envelope about it.
     fn of_mode(&self, m: usize) -> [f64; 3] {
-        let ((q, v), (load, slope)) = (self.motion, self.loads);
+        let (Motion { q, v }, LinearLoad { load, slope }) = (self.motion, self.loads);
         let (w2, c) = (self.structure.omega2[m], self.structure.damping[m]);
         if w2 == 0.0 {
             return [0.0; 3];
@@ -62,7 +62,7 @@ impl<'a> Oscillation<'a> {
                 let [quasi_static, change_of_mode, radius] = self.of_mode(m);
                 let ([a, b], w2) = (row.entries(m), self.structure.omega2[m]);
                 let radius = shared.map_or(radius, |energy| (energy / w2).sqrt());
-                let by_rate = if b == 0.0 { 0.0 } else { b * self.loads.1[m] / w2 };
+                let by_rate = if b == 0.0 { 0.0 } else { b * self.loads.slope[m] / w2 };
                 let followed = a * quasi_static + by_rate;
                 start += followed;
                 change += a * change_of_mode;

@@ -14,7 +14,7 @@
 use crate::engine::bounds::flights::{Flights, Forces};
 use crate::engine::quantities::truncated::{FourModes, Mode, PushedFloors, TruncatedBlock, TruncatedBody};
 use crate::numerics::polynomial::{each, larger, largest};
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, LinearGround, Motion};
 
 /// Flights in a part of a span, over which one bound on what is left of the quick modes holds.
 pub const PART: usize = 5;
@@ -70,15 +70,15 @@ impl<const N: usize> Span<N> {
     pub fn of(flights: &Flights, from: usize) -> Span<N> {
         let count = (flights.count() - from).min(N - 1);
         let end = flights.load(from + count);
-        let (mut ground, mut slopes) = ([[end.acceleration; N]; 2], [end.slope; N]);
+        let (mut ground, mut slopes) = ([[end.ground.acceleration; N]; 2], [end.ground.slope; N]);
         let (mut longest, mut jumps) = (0.0, false);
-        let mut before = flights.load(from).acceleration;
+        let mut before = flights.load(from).ground.acceleration;
         for (t, load) in flights.loads[from..from + count].iter().enumerate() {
-            let last = load.acceleration + load.slope * load.length;
-            (ground[0][t], ground[1][t], slopes[t]) = (load.acceleration, last, load.slope);
+            let (LinearGround { acceleration, slope }, last) = (load.ground, load.ground.after(load.length));
+            (ground[0][t], ground[1][t], slopes[t]) = (acceleration, last, slope);
             longest = larger(longest, load.length);
             // By more than rounding.
-            let is_jump = (before - load.acceleration).abs() > JUMP * (before.abs() + load.acceleration.abs());
+            let is_jump = (before - acceleration).abs() > JUMP * (before.abs() + acceleration.abs());
             jumps |= load.length == 0.0 || is_jump;
             before = last;
         }
@@ -127,7 +127,7 @@ impl<const N: usize> Span<N> {
     /// Reads some modes at the ends: writes q and w^2 q + c q', of oscillators q'.
     pub fn read_slow(&self, flights: &Flights, fours: &[FourModes], out: &mut [[[f64; N]; 2]]) {
         for t in 0..N {
-            let (q, v) = flights.motion(self.from + t.min(self.count));
+            let Motion { q, v } = flights.motion(self.from + t.min(self.count));
             for (four, out) in fours.iter().zip(out.as_chunks_mut::<LANES>().0) {
                 let (q, v) = (four.of_vector(q), four.of_vector(v));
                 for (i, out) in out.iter_mut().enumerate() {
@@ -149,10 +149,10 @@ impl<const N: usize> Span<N> {
             out.fill(0.0);
             // After a jump the quick modes may swing more.
             for t in from..if self.jumps { to } else { from + 1 } {
-                let (q, v) = flights.motion(self.from + t);
+                let Motion { q, v } = flights.motion(self.from + t);
                 for (group, out) in groups.iter().zip(&mut *out) {
                     let range = offset + group.modes.start..offset + group.modes.end;
-                    let (modes, motion) = (&modes[group.modes.clone()], (&q[range.clone()], &v[range]));
+                    let (modes, motion) = (&modes[group.modes.clone()], Motion { q: &q[range.clone()], v: &v[range] });
                     *out = larger(*out, swing_of(modes, motion, [self.ground[0][t], self.slopes[t]]));
                 }
             }
@@ -262,7 +262,7 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
     for (four, sizes) in fours.iter().zip(sizes) {
         let FourModes { w2, c, share, second, .. } = four;
         let (mut moved, mut pulled, mut energy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for (t, (q, v)) in motions.iter().enumerate().take(span.count + 1) {
+        for (t, Motion { q, v }) in motions.iter().enumerate().take(span.count + 1) {
             let (q, v) = (four.of_vector(q), four.of_vector(v));
             let acceleration = each(|i| -share[i] * span.ground[0][t] - (w2[i] * q[i] + c[i] * v[i]));
             let jerk = each(|i| -share[i] * span.slopes[t] - c[i] * acceleration[i] - w2[i] * v[i]);
@@ -276,7 +276,7 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
 
 /// The largest R of some modes at a motion, with the ground's acceleration and its slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), [ground, slope]: [f64; 2]) -> f64 {
+fn swing_of(modes: &[Mode], Motion { q, v }: Motion, [ground, slope]: [f64; 2]) -> f64 {
     let mut most = [0.0; 2 * LANES];
     for (m, (Mode { w2, w, c, share }, (q, v))) in modes.iter().zip(q.iter().zip(v)).enumerate() {
         let stray = w2 * q + share * (ground - c / w2 * slope);

@@ -2,7 +2,7 @@
 
 use crate::engine::bounds::amplitude::share;
 use crate::numerics::polynomial::larger;
-use crate::structure::Structure;
+use crate::structure::{LinearGround, LinearLoad, Motion, Structure};
 use std::ops::Range;
 
 /// Margin for rounding, relative to the terms of an amplitude.
@@ -11,15 +11,15 @@ pub const MARGIN: f64 = 1e-12;
 /// A flight of both buildings, or a part of one.
 pub struct Stretch<'a> {
     /// q and v of all modes at the start.
-    pub start: (&'a [f64], &'a [f64]),
+    pub start: Motion<'a>,
     /// q and v of all modes at the end.
-    pub end: (&'a [f64], &'a [f64]),
+    pub end: Motion<'a>,
     /// The modal load at the start and its rate, per second.
-    pub loads: (&'a [f64], &'a [f64]),
+    pub loads: LinearLoad<'a>,
     /// The watched quantities at rest, which those of the motion are added to.
     pub rest: &'a [f64],
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
-    pub ground: (f64, f64),
+    pub ground: LinearGround,
     /// Length, s.
     pub length: f64,
     /// Whether a peak may well be exceeded in it, as other bounds have shown, so that those by amplitudes are left out.
@@ -74,7 +74,7 @@ impl ModeBounds {
     /// Works out bounds on a building's modes over a flight: on their derivatives, and on their oscillations.
     pub fn set(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, jerk: &mut [f64]) {
         self.set_accelerations(structure, modes.clone(), flight);
-        let (v, slope) = (flight.start.1, flight.loads.1);
+        let (v, slope) = (flight.start.v, flight.loads.slope);
         for m in modes.clone() {
             jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
         }
@@ -104,20 +104,20 @@ impl ModeBounds {
 
     /// Works out the accelerations of a building's modes at both ends of a flight.
     fn set_accelerations(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
-        let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
+        let (Motion { q, v }, end, LinearLoad { load, slope }) = (flight.start, flight.end, flight.loads);
         for m in modes.clone() {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
             self.first[m] = load[m] - c * v[m] - w2 * q[m];
-            self.last[m] = load[m] + slope[m] * flight.length - c * end_v[m] - w2 * end_q[m];
+            self.last[m] = load[m] + slope[m] * flight.length - c * end.v[m] - w2 * end.q[m];
         }
         structure.subtract_coupling_of(&modes, v, 1.0, &mut self.first);
-        structure.subtract_coupling_of(&modes, end_v, 1.0, &mut self.last);
+        structure.subtract_coupling_of(&modes, end.v, 1.0, &mut self.last);
     }
 
     /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see
     /// `envelope.rs`).
     fn set_swings(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, is_coupled: bool) {
-        let ((q, v), (load, slope)) = (flight.start, flight.loads);
+        let (Motion { q, v }, LinearLoad { load, slope }) = (flight.start, flight.loads);
         // With coupled modes the quasi-static displacement under a changing load is not worked out: the whole load is
         // taken to increase the amplitude.
         let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);

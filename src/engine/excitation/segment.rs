@@ -1,6 +1,7 @@
 //! An interval of time in which the ground acceleration is linear.
 
 use crate::engine::excitation::inputs::LinearInput;
+use crate::structure::LinearGround;
 use serde::{Deserialize, Serialize};
 
 /// An interval of time in which the ground acceleration is linear.
@@ -44,6 +45,11 @@ impl Segment {
         let Segment { start, length, acceleration, slope, place } = *self;
         let numbers = [start, length, acceleration, slope];
         place == RecordPlace::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
+    }
+
+    /// The ground's acceleration from a time since the start on, s.
+    pub(crate) fn ground_from(&self, elapsed: f64) -> LinearGround {
+        LinearGround { acceleration: self.acceleration_at(elapsed), slope: self.slope }
     }
 
     /// Ground acceleration, m/s2, at a time since the start, s.

@@ -4,7 +4,7 @@ use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::system::System;
-use crate::structure::PIECE_ANGLE;
+use crate::structure::{LinearLoad, PIECE_ANGLE};
 
 /// Largest number of pieces of one flight; a longer flight takes several steps, unless its motion has died out.
 const MOST_PIECES: f64 = 10_000.0;
@@ -31,7 +31,7 @@ impl System {
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
     /// pieces for the energy account, unless nothing is left to integrate or the work is found at once.
-    pub fn accounted_flight(&self, base: &Base, loads: (&[f64], &[f64]), length: f64) -> f64 {
+    pub fn accounted_flight(&self, base: &Base, loads: LinearLoad, length: f64) -> f64 {
         let most = self.longest_pieces();
         let is_whole = base.elapsed == 0.0 && length == base.segment.length;
         let watched = self.watched_segment(base).filter(|_| is_whole);
@@ -57,7 +57,7 @@ impl System {
 
     /// Whether damping dissipates nothing from now on: there is none, or the oscillation about the static displacement
     /// has died out.
-    pub fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
+    pub fn is_quiet(&self, base: &Base, LinearLoad { load, slope }: LinearLoad, largest: f64) -> bool {
         if slope.iter().any(|slope| *slope != 0.0) {
             return false;
         }

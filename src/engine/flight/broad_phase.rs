@@ -71,7 +71,7 @@ impl BroadPhase {
         }
         let mut least = u64::MAX;
         for ((of, present), gain) in system.elements(&base.storeys).zip(&self.storeys) {
-            let seen = self.rates.see(of.in_flight(), (&base.q, &base.v), amplitude);
+            let seen = self.rates.see(of.in_flight(), base.motion(), amplitude);
             for sense in Sense::BOTH {
                 let start = of.start_of_flight(present, sense, seen.moved) + MARGIN * (of.limit + size);
                 least = least.min(seen.longest(gain, (sense.sign(), start), ends));
@@ -94,13 +94,13 @@ fn look_ahead(
     counters: &mut Counters,
     amplitude: &mut [f64],
 ) {
-    let size = of.rates.amplitudes((&base.q, &base.v), amplitude);
+    let size = of.rates.amplitudes(base.motion(), amplitude);
     let ends = Ends::of(&ground.ahead_of(segment), base.elapsed);
     for (p, (pair, &gap)) in system.pairs.iter().zip(&base.rest.gaps).enumerate() {
         if base.clearance.is_free(p, segment) {
             continue;
         }
-        let seen = of.rates.see(pair.in_flight(), (&base.q, &base.v), amplitude);
+        let seen = of.rates.see(pair.in_flight(), base.motion(), amplitude);
         let contact = &mut base.contacts[p];
         if !base.clearance.is_known(p) {
             counters.pairs_evaluated += 1;

@@ -5,7 +5,7 @@ use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::log::FlightLog;
 use crate::engine::system::System;
-use crate::structure::{FlightWork, Lane};
+use crate::structure::{FlightWork, Lane, LinearGround, Motion};
 
 /// What is noted of segments that follow each other.
 pub struct SegmentAccount<'a> {
@@ -53,15 +53,15 @@ impl<'a> SegmentAccount<'a> {
         length == self.length && self.energy.as_ref().is_none_or(|energy| length == energy.work.length)
     }
 
-    /// Notes a segment, from the motion at its start and the ground's acceleration, m/s2, and slope, m/s3.
+    /// Notes a segment, from the motion at its start and the ground's acceleration.
     #[inline(always)]
-    pub fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
+    pub fn add(&mut self, motion: (&[Lane], &[Lane]), ground: LinearGround) {
         for log in self.logs.iter_mut().flatten() {
-            let of_flight = Load { acceleration: load.0, slope: load.1, length: self.length };
-            log.push((motion.0.as_flattened(), motion.1.as_flattened()), of_flight);
+            let (q, v) = (motion.0.as_flattened(), motion.1.as_flattened());
+            log.push(Motion { q, v }, Load { ground, length: self.length });
         }
         if let Some(EnergyAccount { work, account, impact }) = &mut self.energy {
-            account.add_flight(&work.over(motion, load), *impact);
+            account.add_flight(&work.over(motion, ground), *impact);
         }
     }
 

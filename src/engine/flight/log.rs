@@ -8,7 +8,7 @@
 
 use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::numerics::identity::next_identity;
-use crate::structure::LANES;
+use crate::structure::{LANES, Motion};
 
 /// Number of entries of a log: that many, so many more for each lane of modes, and at most. A long log leaves less to be
 /// searched, which counts where there are many quantities; a short one touches less memory for the first time, which counts in
@@ -114,7 +114,7 @@ impl FlightLog {
     }
 
     /// Adds a flight by the motion at its start.
-    pub fn push(&mut self, (q, v): (&[f64], &[f64]), load: Load) {
+    pub fn push(&mut self, Motion { q, v }: Motion, load: Load) {
         self.q.extend_from_slice(q);
         self.v.extend_from_slice(v);
         self.loads.push(load);
@@ -133,16 +133,15 @@ impl FlightLog {
 
     /// Ends the last flight at a motion, where something other than the ground and forces on floors is about to move the
     /// buildings.
-    pub fn close(&mut self, motion: (&[f64], &[f64])) {
-        if let Some(Load { acceleration, slope, length }) = self.loads.last().copied().filter(|load| load.length > 0.0)
-        {
-            self.push(motion, Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 });
+    pub fn close(&mut self, motion: Motion) {
+        if let Some(load) = self.loads.last().copied().filter(|load| load.length > 0.0) {
+            self.push(motion, load.gap());
             self.push_forces(std::iter::empty(), |_| ());
         }
     }
 
     /// The logged flights from an entry on; the last one ends at the base, with the motion `end`.
-    pub fn flights_from<'a>(&'a self, entry: usize, end: (&'a [f64], &'a [f64])) -> Flights<'a> {
+    pub fn flights_from<'a>(&'a self, entry: usize, end: Motion<'a>) -> Flights<'a> {
         let from = entry * self.lanes;
         let forces = self.forces.as_ref().map(|ForceLog { floors, energies, of, sets }| Forces {
             energies: &energies[from..],

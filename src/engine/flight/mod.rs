@@ -18,6 +18,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::structure::{LinearLoad, Motion};
 
 /// Coefficients for the proofs that no pair meets and no storey yields; constant during a run.
 #[derive(Debug)]
@@ -45,7 +46,7 @@ impl Flight {
     ) {
         at.counters.flight_steps += 1;
         planned.plan(longest, None, planned.reaches_limit, None);
-        system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
+        system.fly(at.base, longest, work, planned.motion_mut());
         if system.limits() == 0 {
             return;
         }
@@ -59,8 +60,8 @@ impl Flight {
         } else if !self.both_ends_hold(system, at, planned, (look, work), segment) {
             let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
             planned.ends.clear();
-            let loads = (&work.load[..], &work.slope[..]);
-            if is_over || !system.envelopes_stay_within(at.base, (&at.base.q, &at.base.v), loads, longest) {
+            let loads = work.loads();
+            if is_over || !system.envelopes_stay_within(at.base, at.base.motion(), loads, longest) {
                 let certificate = &self.certificate;
                 Search { certificate, system, base: at.base, look, work }.first_event(planned, at.counters);
             }
@@ -77,8 +78,8 @@ impl Flight {
         (look, work): (&mut Look, &mut Buffers),
         segment: Option<u64>,
     ) -> bool {
-        let (h, start, loads) = (planned.length, (&base.q[..], &base.v[..]), (&work.load[..], &work.slope[..]));
-        let end = (&planned.q[..], &planned.v[..]);
+        let (h, loads) = (planned.length, LinearLoad { load: &work.load, slope: &work.slope });
+        let (start, end) = (Motion { q: &base.q, v: &base.v }, Motion { q: &planned.q, v: &planned.v });
         let deviation = self.certificate.deviation(system.structure.in_flight(), start, loads, h, &mut work.scratch);
         let is_cleared = |base: &Base, p: usize| segment.is_some_and(|segment| base.clearance.is_free(p, segment));
         for (p, pair) in system.pairs.iter().enumerate() {

@@ -4,48 +4,41 @@ use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{Interval, LONGEST_ANGLE, exact_order, fly_in_one_series};
+use crate::structure::{Interval, LONGEST_ANGLE, LinearLoad, Motion, MotionMut, exact_order, fly_in_one_series};
 
 /// Up to so many series cost less than matrices and lose no digits.
 const MOST_PIECES: f64 = 32.0;
 
 impl System {
-    /// Writes to q, v the motion `h` seconds after the base, under `work.load` and its slope.
-    pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
+    /// Writes to `end` the motion `h` seconds after the base, under `work.load` and its slope.
+    pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, end: MotionMut) {
         let Buffers { load, slope, scratch, interval, .. } = work;
         if self.structure.in_flight().is_classical() && !cfg!(without = "short_flight") {
-            return self.fly_uncoupled(base, h, (load, slope), interval, (q, v));
+            return self.fly_uncoupled(base, h, LinearLoad { load, slope }, interval, end);
         }
         let prepared = self.prepared(base, h);
         let pieces = (self.structure.fastest * h / LONGEST_ANGLE).ceil().max(1.0);
         // Written so that a NaN is not few.
         if prepared.is_none() && pieces <= MOST_PIECES {
-            return self.fly_in_pieces(base, h, pieces as usize, work, (q, v));
+            return self.fly_in_pieces(base, h, pieces as usize, work, end);
         }
         let interval = prepared.unwrap_or_else(|| {
             interval.prepare(&self.structure, h);
             interval
         });
-        interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
+        interval.fly(base.motion(), LinearLoad { load, slope }, end, scratch);
     }
 
     /// The same; leaves the motion in `work.q`, `work.v`.
     pub fn fly_in(&self, base: &Base, h: f64, work: &mut Buffers) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.fly(base, h, work, (&mut q, &mut v));
+        self.fly(base, h, work, MotionMut { q: &mut q, v: &mut v });
         (work.q, work.v) = (q, v);
     }
 
     /// The motion `h` seconds after the base where damping couples no modes, under a load and its slope; `interval` is memory.
-    pub fn fly_uncoupled(
-        &self,
-        base: &Base,
-        h: f64,
-        loads: (&[f64], &[f64]),
-        interval: &mut Interval,
-        end: (&mut [f64], &mut [f64]),
-    ) {
-        let start = (&base.q[..], &base.v[..]);
+    pub fn fly_uncoupled(&self, base: &Base, h: f64, loads: LinearLoad, interval: &mut Interval, end: MotionMut) {
+        let start = base.motion();
         if let Some(prepared) = self.prepared(base, h) {
             return prepared.fly_uncoupled(start, loads, end);
         }
@@ -59,12 +52,11 @@ impl System {
 
     /// The same by series of all modes, one after another: where damping couples modes, matrices for a flight of a
     /// length that no other flight has would cost much more.
-    fn fly_in_pieces(&self, base: &Base, h: f64, pieces: usize, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
+    fn fly_in_pieces(&self, base: &Base, h: f64, pieces: usize, work: &mut Buffers, MotionMut { q, v }: MotionMut) {
         let Buffers { load, slope, scratch, series, powers, .. } = work;
         let piece = h / pieces as f64;
         let order = exact_order(self.structure.fastest * piece).unwrap_or(MAX_ORDER);
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
+        MotionMut { q, v }.copy_from(base.motion());
         for i in 0..pieces {
             let start = i as f64 * piece;
             let moved = &mut scratch.room()[..load.len()];
@@ -72,7 +64,7 @@ impl System {
                 .iter_mut()
                 .zip(load.iter().zip(&*slope))
                 .for_each(|(moved, (load, slope))| *moved = load + slope * start);
-            series.expand_flight(&self.structure, (q, v), (moved, slope), (piece, order));
+            series.expand_flight(&self.structure, Motion { q, v }, LinearLoad { load: moved, slope }, (piece, order));
             powers.set(1.0, series.order);
             series.evaluate(powers, q, v);
         }

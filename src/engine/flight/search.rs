@@ -12,7 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, PIECE_ANGLE, difference, flight_order};
+use crate::structure::{EXACT, FreeRows, LinearLoad, Motion, MotionMut, PIECE_ANGLE, difference, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -57,7 +57,7 @@ impl Search<'_> {
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
                 let (motion, loads) =
-                    ((&self.look.q[..], &self.look.v[..]), (&self.look.load[..], &self.work.slope[..]));
+                    (self.look.motion(), LinearLoad { load: &self.look.load, slope: &self.work.slope });
                 if system.envelopes_stay_within(base, motion, loads, left) {
                     return;
                 }
@@ -79,22 +79,21 @@ impl Search<'_> {
                 return;
             }
         }
-        planned.q.copy_from_slice(&self.look.q);
-        planned.v.copy_from_slice(&self.look.v);
+        planned.motion_mut().copy_from(self.look.motion());
         (planned.length, planned.reaches_limit) = (self.look.from, false);
     }
 
     /// The same in one piece, by prepared polynomials of the penetrations.
     fn first_entry_by_rows(&mut self, rows: &FreeRows, planned: &mut Planned) {
         let Search { system, base, look, work, .. } = self;
-        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let ground = base.ground();
         let mut first = First::up_to(planned.length / rows.length);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if look.is_free[p] {
                 continue;
             }
             let terms = &mut work.scalar[..FreeRows::TERMS];
-            rows.enter(p, (&base.q, &base.v), ground, terms);
+            rows.enter(p, base.motion(), ground, terms);
             let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row.modes, motion));
             (terms[0], terms[1]) = (moved, moving * rows.length);
             let later: f64 = terms[2..].iter().map(|term| term.abs()).sum();
@@ -103,7 +102,7 @@ impl Search<'_> {
         }
         let Some((x, event)) = first.found() else { return };
         (planned.length, planned.reaches_limit, planned.event) = (x * rows.length, false, Some(event));
-        system.fly(base, planned.length, work, (&mut planned.q, &mut planned.v));
+        system.fly(base, planned.length, work, planned.motion_mut());
     }
 
     /// Ends the step at the event found in the series of the last piece, or at the end of that piece.
@@ -128,7 +127,7 @@ impl Search<'_> {
         // Series of oscillators lose a term where their rates enter.
         let order = (order + usize::from(system.structure.oscillators().is_some())).min(MAX_ORDER);
         let Look { from, q, v, load, is_free, .. } = &*look;
-        work.series.expand_flight(flying, (q, v), (load, &work.slope), (length, order));
+        work.series.expand_flight(flying, Motion { q, v }, LinearLoad { load, slope: &work.slope }, (length, order));
         let mut first = First::up_to(1.0);
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if is_free[p] {
@@ -154,11 +153,11 @@ impl Search<'_> {
     /// Whether both ends of a piece prove that no limit is reached in it; if so, the search moves on to its end.
     fn piece_stays_within(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
-        let (motion, loads) = ((&look.q[..], &look.v[..]), (&look.load[..], &work.slope[..]));
+        let (motion, loads) = (look.motion(), LinearLoad { load: &look.load, slope: &work.slope });
         let deviation = certificate.deviation(system.structure.in_flight(), motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;
-        let ends = [(&look.q[..], &look.v[..]), (&look.end_q, &look.end_v)];
+        let ends = [look.motion(), Motion { q: &look.end_q, v: &look.end_v }];
         let stays_within = |i: usize| look.is_free[i] || system.stays_within(base, i, ends, (length, deviation));
         let all_stay_within = (0..system.limits()).all(stays_within);
         if all_stay_within {
@@ -177,6 +176,6 @@ impl Search<'_> {
     fn fly(&mut self, length: f64) {
         let Search { system, base, look, work, .. } = self;
         let Look { from, end_q, end_v, .. } = &mut **look;
-        system.fly(base, *from + length, work, (end_q, end_v));
+        system.fly(base, *from + length, work, MotionMut { q: end_q, v: end_v });
     }
 }

@@ -1,6 +1,7 @@
 //! Working data of the search for an event in a flight.
 
 use crate::engine::base::Base;
+use crate::structure::{Motion, MotionMut};
 
 /// The position of the search in the flight; its content means nothing between calls.
 #[derive(Clone, Debug)]
@@ -27,10 +28,13 @@ impl Look {
         Look { from: 0.0, q, v, load, end_q: vector(), end_v: vector(), is_free: vec![false; limits] }
     }
 
+    pub fn motion(&self) -> Motion<'_> {
+        Motion { q: &self.q, v: &self.v }
+    }
+
     pub fn start(&mut self, base: &Base, load: &[f64]) {
         self.from = 0.0;
-        self.q.copy_from_slice(&base.q);
-        self.v.copy_from_slice(&base.v);
+        MotionMut { q: &mut self.q, v: &mut self.v }.copy_from(base.motion());
         self.load.copy_from_slice(load);
     }
 

@@ -33,7 +33,7 @@ pub fn plan(
 ) -> bool {
     let Some((grid, scale)) = system.onset_grid(base, work, remaining) else { return false };
     onset.start(base, &system.pairs, grid, scale);
-    let loads = (&work.load[..], &work.slope[..]);
+    let loads = work.loads();
     let (structure, coordinates) = (&system.structure, base.coordinates);
     match coordinates {
         Coordinates::Floors => expand(onset, structure, coordinates, loads, &FloorJacobian),
@@ -60,7 +60,7 @@ impl System {
         let mut found: Option<Grid> = None;
         let mut scale = self.series_scale(base, remaining);
         let allowed = self.tolerance.step * base.velocity_scale;
-        self.accelerate(base.coordinates, (&base.q, &base.v), &work.load, &mut work.q);
+        self.accelerate(base.coordinates, base.motion(), &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
             let force = contact.branch();
             let grid = Grid::of(&force, HIGHEST)?;

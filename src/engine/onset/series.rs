@@ -9,7 +9,7 @@ use crate::engine::pairs::jacobian::ContactJacobian;
 use crate::engine::pairs::packing::PackedBlocks;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
-use crate::structure::{LANES, Lane, Structure, sum_terms};
+use crate::structure::{LANES, Lane, LinearLoad, Structure, sum_terms};
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
@@ -133,7 +133,7 @@ pub fn expand<M: ContactJacobian>(
     onset: &mut OnsetSeries,
     structure: &Structure,
     coordinates: Coordinates,
-    loads: (&[f64], &[f64]),
+    loads: LinearLoad,
     jacobian: &M,
 ) {
     let Some(grid) = onset.grid else { return };
@@ -154,7 +154,7 @@ fn extend<M: ContactJacobian>(
     onset: &mut OnsetSeries,
     structure: &Structure,
     coordinates: Coordinates,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     jacobian: &M,
     grid: &Grid,
     (i, j): (usize, usize),

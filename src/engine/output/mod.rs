@@ -28,6 +28,7 @@ use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
+use crate::structure::{Motion, MotionMut};
 use std::cell::Cell;
 
 impl Model {
@@ -49,13 +50,13 @@ impl Model {
         };
         let elapsed = state.since_base();
         let mut work = self.take_buffers(point);
-        step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
+        step.evaluate(&self.system, (base, inputs), elapsed, &mut work, MotionMut { q: &mut point.q, v: &mut point.v });
         if let (true, Some(oscillators)) = (base.oscillates, self.system.structure.oscillators()) {
             let Point { q, v, oscillating, .. } = &mut *point;
             let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
             std::mem::swap(q, of_q);
             std::mem::swap(v, of_v);
-            oscillators.to_modes((of_q, of_v), (q, v));
+            oscillators.to_modes(Motion { q: of_q, v: of_v }, MotionMut { q, v });
         }
         self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.

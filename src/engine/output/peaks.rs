@@ -13,6 +13,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::structure::{Motion, MotionMut};
 
 /// Number of flights from one read to the next up to which it is worth looking ahead.
 const OFTEN: usize = 4;
@@ -64,7 +65,7 @@ impl Model {
                 for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
                     of.move_rest(point.coordinates, (now, storey), q);
                 }
-                self.peaks().raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
+                self.peaks().raise_over_part((base, step, inputs), (elapsed, Motion { q, v: &point.v }), peaks, work);
             }
             _ => self.read_peaks_of_flight(state, (point, elapsed), (ahead, begun), peaks, work),
         }
@@ -83,7 +84,7 @@ impl Model {
         let steps = &state.work.steps;
         self.peaks().raise_over_log((steps, known.steps), &state.inputs, &mut known.folded, work);
         known.steps = steps.logged();
-        let flights = log.flights_from(known.entries, (&base.q, &base.v));
+        let flights = log.flights_from(known.entries, base.motion());
         let (rest, count) = (&base.rest.watched, flights.loads.len());
         let PointPeaks { folded, peaks, ahead, .. } = known;
         if !self.peaks().fold_expected((&flights, rest), ahead, folded, work) {
@@ -107,47 +108,40 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let State { base, inputs, .. } = state;
-        let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
-        let load_over = |length: f64| [Load { acceleration, slope, length }];
+        let load_over = |length: f64| [Load { ground: base.ground(), length }];
         let loads = load_over(elapsed);
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         if ahead.stay_below(&part, &base.rest.watched, peaks) {
             return;
         }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
-        let length = self.end_of_flight(state, work, (&mut q, &mut v));
+        let length = self.end_of_flight(state, work, MotionMut { q: &mut q, v: &mut v });
         let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
         let finder = self.peaks();
-        let raise = |whole: &Stretch, length: f64, end: (&[f64], &[f64]), peaks: &mut Peaks, work: &mut PeakWork| {
+        let raise = |whole: &Stretch, length: f64, end: Motion, peaks: &mut Peaks, work: &mut PeakWork| {
+            let loads = &load_over(length);
             match is_folded {
-                true => finder.fold(
-                    &Flights { loads: &load_over(length), end, ..part },
-                    whole.rest,
-                    Some(whole),
-                    peaks,
-                    work,
-                ),
+                true => finder.fold(&Flights { loads, end, ..part }, whole.rest, Some(whole), peaks, work),
                 false => finder.check_blocks(&Stretch { end, length, whole: Some(whole), ..*whole }, peaks, work),
             }
         };
-        finder.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
+        finder.with_flight(base, inputs, (length, Motion { q: &q, v: &v }), work, |whole, work| {
             finder.raise_over_begun((base, begun), (whole, elapsed, end), (peaks, work), raise);
         });
         (work.buffers.q, work.buffers.v) = (q, v);
     }
 
     /// Works out the end of the planned flight; returns its length, s.
-    fn end_of_flight(&self, state: &State, work: &mut PeakWork, (q, v): (&mut [f64], &mut [f64])) -> f64 {
+    fn end_of_flight(&self, state: &State, work: &mut PeakWork, MotionMut { q, v }: MotionMut) -> f64 {
         let State { base, step, inputs, .. } = state;
         if step.kind == StepKind::Flight {
-            q.copy_from_slice(&step.planned.q);
-            v.copy_from_slice(&step.planned.v);
+            MotionMut { q, v }.copy_from(step.planned.motion());
             return step.planned.length;
         }
         let length = base.segment.length;
         self.system.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
-        self.system.fly(base, length, work.buffers, (q, v));
+        self.system.fly(base, length, work.buffers, MotionMut { q, v });
         length
     }
 }

@@ -5,6 +5,7 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
 use crate::engine::system::buffers::Buffers;
+use crate::structure::Motion;
 use std::cell::{Cell, RefCell};
 
 /// The solution at one time, by floors and contacts, each of which is worked out when first read.
@@ -43,10 +44,10 @@ pub struct Point {
 
 impl Point {
     /// The motion in the coordinates of the step's base.
-    pub(in crate::engine) fn motion_of_step(&self, base: &Base) -> (&[f64], &[f64]) {
+    pub(in crate::engine) fn motion_of_step(&self, base: &Base) -> Motion<'_> {
         match &self.oscillating {
-            Some([q, v]) if base.oscillates => (q, v),
-            _ => (&self.q, &self.v),
+            Some([q, v]) if base.oscillates => Motion { q, v },
+            _ => Motion { q: &self.q, v: &self.v },
         }
     }
 }

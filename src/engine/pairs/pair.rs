@@ -6,7 +6,7 @@ use crate::engine::base::contact::{Contact, ContactPhase, Episode};
 use crate::engine::pairs::row::{WeightRow, relative};
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::scene::{Scene, Share};
-use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
+use crate::structure::{FEW_BLOCKS, LANES, Lane, Motion, Structure};
 
 /// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of both buildings.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl Pair {
     }
 
     /// Penetration, m, and its rate, m/s, for the motion in a flight relative to a position of rest in which it has that gap.
-    pub(crate) fn penetration(&self, gap: f64, motion: (&[f64], &[f64])) -> (f64, f64) {
+    pub(crate) fn penetration(&self, gap: f64, motion: Motion) -> (f64, f64) {
         let row = self.in_flight();
         (row.value(motion) - gap, row.rate(motion))
     }
@@ -68,7 +68,7 @@ impl Pair {
 
     /// The contact at the start of a run, for a modal motion and the gap in its position of rest. A pair that overlaps there begins an episode without
     /// approach velocity.
-    pub(crate) fn at_start(&self, index: usize, time: f64, gap: f64, (q, v): (&[f64], &[f64])) -> Contact {
+    pub(crate) fn at_start(&self, index: usize, time: f64, gap: f64, Motion { q, v }: Motion) -> Contact {
         let (penetration, rate) = (self.relative(Coordinates::Modes, q) - gap, self.relative(Coordinates::Modes, v));
         let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {

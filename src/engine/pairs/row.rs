@@ -79,7 +79,7 @@ impl WeightRow {
     /// The quantity at the base of a step.
     pub(crate) fn value_at(&self, base: &Base) -> f64 {
         match base.oscillates {
-            true => self.in_flight().value((&base.q, &base.v)),
+            true => self.in_flight().value(base.motion()),
             false => self.value(base.coordinates, &base.q),
         }
     }
@@ -87,7 +87,7 @@ impl WeightRow {
     /// Its rate.
     pub(crate) fn rate_at(&self, base: &Base) -> f64 {
         match base.oscillates {
-            true => self.in_flight().rate((&base.q, &base.v)),
+            true => self.in_flight().rate(base.motion()),
             false => self.value(base.coordinates, &base.v),
         }
     }
@@ -95,7 +95,7 @@ impl WeightRow {
     /// The sum of the magnitudes that it is made of.
     pub(crate) fn size_at(&self, base: &Base) -> f64 {
         match base.oscillates {
-            true => self.in_flight().size((&base.q, &base.v)),
+            true => self.in_flight().size(base.motion()),
             false => self.difference(base.coordinates, &base.q).1,
         }
     }

@@ -12,7 +12,7 @@ use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold::is_below;
 use crate::engine::peaks::fold_room::{LONG, Survivor};
 use crate::engine::peaks::room::PeakWork;
-use crate::structure::{Interval, LANES};
+use crate::structure::{Interval, LANES, Motion, MotionMut};
 
 /// Number of flights that are flown ahead: those of one span.
 const AHEAD: usize = LONG - 1;
@@ -48,7 +48,7 @@ impl FlightsAhead {
         if self.come + count > self.log.count() || self.rest != rest {
             return false;
         }
-        let expected = self.log.flights_from(self.come, (&[], &[]));
+        let expected = self.log.flights_from(self.come, Motion::default());
         (0..count).all(|k| {
             let (load, whole) = (flights.load(k), expected.load(k));
             let is_part = count == 1 && 0.0 < load.length && load.length < whole.length;
@@ -106,23 +106,24 @@ impl PeakFinder<'_> {
         let Some((ground, first)) = self.system.watched_segment(base).filter(|_| is_flight) else { return };
         let participation = &self.system.structure.in_flight().participation;
         let [mut q, mut v, mut end_q, mut end_v] = std::mem::take(&mut work.peaks.pieces);
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
+        MotionMut { q: &mut q, v: &mut v }.copy_from(base.motion());
         for number in first..first + AHEAD as u64 {
             let segment = ground.segment(number);
-            let load = (segment.acceleration_at(0.0), segment.slope);
-            let is_finite =
-                |interval: &Interval| interval.fly_on_ground((&q, &v), (participation, load), (&mut end_q, &mut end_v));
+            let acceleration = segment.ground_from(0.0);
+            let is_finite = |interval: &Interval| {
+                let end = MotionMut { q: &mut end_q, v: &mut end_v };
+                interval.fly_on_ground(Motion { q: &q, v: &v }, (participation, acceleration), end)
+            };
             if !ground.prepared(&segment).is_some_and(is_finite) {
                 break;
             }
-            log.push((&q, &v), Load { acceleration: load.0, slope: load.1, length: segment.length });
+            log.push(Motion { q: &q, v: &v }, Load { ground: acceleration, length: segment.length });
             std::mem::swap(&mut q, &mut end_q);
             std::mem::swap(&mut v, &mut end_v);
         }
         rest.clone_from(&base.rest.watched);
         let mut room = std::mem::take(&mut work.peaks.fold);
-        self.find_survivors(&log.flights_from(0, (&q, &v)), (rest, false), peaks, &mut room);
+        self.find_survivors(&log.flights_from(0, Motion { q: &q, v: &v }), (rest, false), peaks, &mut room);
         survivors.extend_from_slice(&room.survivors);
         work.peaks.fold = room;
         work.peaks.pieces = [q, v, end_q, end_v];

@@ -9,6 +9,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::room::PeakWork;
+use crate::structure::Motion;
 
 /// The peaks over the first part of a flight.
 #[derive(Clone, Debug, Default)]
@@ -48,9 +49,9 @@ impl PeakFinder<'_> {
     pub(in crate::engine) fn raise_over_begun(
         &self,
         (base, begun): (&Base, &mut BegunFlight),
-        (whole, elapsed, end): (&Stretch, f64, (&[f64], &[f64])),
+        (whole, elapsed, end): (&Stretch, f64, Motion),
         (peaks, work): (&mut Peaks, &mut PeakWork),
-        raise: impl Fn(&Stretch, f64, (&[f64], &[f64]), &mut Peaks, &mut PeakWork),
+        raise: impl Fn(&Stretch, f64, Motion, &mut Peaks, &mut PeakWork),
     ) {
         let until = self.end_of_pieces(whole, elapsed);
         if until == 0.0 {
@@ -60,7 +61,7 @@ impl PeakFinder<'_> {
         if begun.until < until {
             self.fly_within(whole, until, &mut begun.end, work);
             let [q, v] = &begun.end;
-            raise(&Stretch { searched: begun.until, ..*whole }, until, (q, v), &mut begun.peaks, work);
+            raise(&Stretch { searched: begun.until, ..*whole }, until, Motion { q, v }, &mut begun.peaks, work);
             begun.until = until;
         }
         peaks.raise_all(&begun.peaks);

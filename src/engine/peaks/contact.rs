@@ -16,7 +16,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::structure::{LANES, Side};
+use crate::structure::{LANES, Motion, Side};
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
 /// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
@@ -77,7 +77,7 @@ impl PeakFinder<'_> {
     pub(in crate::engine) fn raise_over_part(
         &self,
         (base, step, inputs): (&Base, &Step, &Inputs),
-        (elapsed, end): (f64, (&[f64], &[f64])),
+        (elapsed, end): (f64, Motion),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
@@ -106,7 +106,7 @@ impl PeakFinder<'_> {
         self.find_pushes(base, work);
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
-        self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
+        self.find_floors(base.coordinates, (&base.rest, base.motion()), &mut room.start, &mut modal);
         room.modal = modal;
         let FloorRoom { start, pushes: [pushed, _], .. } = &work.peaks.floors;
         for side in Side::BOTH {
@@ -162,10 +162,10 @@ impl PeakFinder<'_> {
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
         if !room.go_on([base.segment.start, base.elapsed]) {
-            self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
+            self.find_floors(base.coordinates, (&base.rest, base.motion()), &mut room.start, &mut modal);
         }
         self.find_floors(base.coordinates, (&base.rest, end), &mut room.end, &mut modal);
-        self.soften(base, end.0, &mut room.end);
+        self.soften(base, end.q, &mut room.end);
         room.modal = modal;
         if self.system.floor_forces {
             self.add_forces((base, part.inputs), 0.0, &mut room.start.resisted);
@@ -285,7 +285,8 @@ impl PeakFinder<'_> {
         let span = self.span_of(self.watched.rows.body_of(place / LANES), part.base.coordinates);
         let step = part.step;
         let at_rest = part.base.rest.watched[place] + self.soften_row(of, part.base, &mut rows);
-        let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground(), oscillates: false };
+        let quantity =
+            Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),

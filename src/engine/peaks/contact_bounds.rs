@@ -118,8 +118,9 @@ impl PeakFinder<'_> {
             largest_of_drifts,
             ..
         } = room;
-        let (ground, slope) = part.ground();
-        for (k, (at, ground)) in [(start, ground), (end, ground + slope * part.length)].into_iter().enumerate() {
+        let ground = part.base.ground();
+        let ends = [(start, ground.acceleration), (end, ground.after(part.length))];
+        for (k, (at, ground)) in ends.into_iter().enumerate() {
             for lane in lanes.clone() {
                 accelerations[k][lane] = at.resisted[lane] + pushes[k][lane] - ground;
             }
@@ -152,7 +153,7 @@ fn bound_in_time_map(
     accelerations.set_accelerations(series, substitution);
     accelerations.bound_seconds(x, strays);
     // The ground's acceleration is linear in time, which is quadratic in x.
-    let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.ground().1).abs();
+    let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.base.ground().slope).abs();
     let sag = 0.125 * x * x;
     strays.iter_mut().for_each(|stray| *stray *= sag);
     sag * of_ground

@@ -16,7 +16,7 @@ use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::room::{LEAVES, MOST_PIECES, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, PeakOf};
 use crate::numerics::polynomial::larger;
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, Motion};
 
 impl PeakFinder<'_> {
     /// Raises the peaks over a flight.
@@ -39,7 +39,8 @@ impl PeakFinder<'_> {
         for body in &rows.bodies {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[body.modes.clone()]);
             for b in 0..body.blocks.len() {
-                for (i, value) in self.values_at((body, b), &base.rest.watched, (q, v)).into_iter().enumerate() {
+                for (i, value) in self.values_at((body, b), &base.rest.watched, Motion { q, v }).into_iter().enumerate()
+                {
                     let place = (body.first + b) * LANES + i;
                     if !(self.system.floor_forces
                         && matches!(self.watched.rows.at(place), Some(PeakOf::Acceleration(..))))

@@ -12,7 +12,7 @@ use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::yielding::element::ElementOf;
 use crate::numerics::polynomial::largest;
-use crate::structure::{LANES, Side};
+use crate::structure::{LANES, Motion, Side};
 
 /// Largest |T| for which the bound is used.
 const FURTHEST: f64 = 0.5;
@@ -22,7 +22,7 @@ impl PeakFinder<'_> {
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
-        (rest, (q, v)): (&Rest, (&[f64], &[f64])),
+        (rest, Motion { q, v }): (&Rest, Motion),
         out: &mut FloorState,
         modal: &mut [f64],
     ) {

@@ -17,7 +17,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
 use crate::engine::quantities::truncated::{FourModes, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, LinearLoad, Motion};
 use std::ops::Range;
 
 /// Flights, and one body's rows to be read over them.
@@ -111,7 +111,7 @@ impl PeakFinder<'_> {
             let [push, rate] = self.pushes(flights, survivor);
             let times = [0.0, flights.load(survivor.flight).length];
             for (end, (flight, time)) in survivor.ends.iter_mut().zip((survivor.flight..).zip(times)) {
-                let (q, v) = flights.motion(flight);
+                let Motion { q, v } = flights.motion(flight);
                 *end = values_of(
                     &rows.blocks[survivor.block - rows.first],
                     &q[rows.modes.clone()],
@@ -150,19 +150,19 @@ impl PeakFinder<'_> {
         work: &mut PeakWork,
     ) {
         let Some(flight) = survivors.first().map(|survivor| survivor.flight) else { return };
-        let Load { acceleration, slope, length } = flights.load(flight);
-        let (ground, forces) = ((acceleration, slope), flights.forces.and_then(|forces| forces.acting(flight)));
+        let Load { ground, length } = flights.load(flight);
+        let forces = flights.forces.and_then(|forces| forces.acting(flight));
         let mut own = None;
         let loads = whole.map_or_else(
             || {
-                let (load, rate) =
+                let (load, slope) =
                     own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
-                self.system.load_in_flight(ground, load, rate);
+                self.system.load_in_flight(ground, load, slope);
                 if let Some((forces, rates)) = forces {
                     self.system.add_forces(forces.iter().copied(), Coordinates::Modes, load);
-                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, rate);
+                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, slope);
                 }
-                (&load[..], &rate[..])
+                LinearLoad { load, slope }
             },
             |whole| whole.loads,
         );

@@ -49,7 +49,7 @@ impl PeakFinder<'_> {
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
         let (link, h) = (&self.system.structure.links[l], part.length);
         let lost = self.system.stiffness_lost_by_link(&part.base.storeys, l);
-        let since = self.system.link_closing(l, part.end.0) - self.system.link_closing(l, &part.base.q);
+        let since = self.system.link_closing(l, part.end.q) - self.system.link_closing(l, &part.base.q);
         let [first, last] = [self.link_at(l, part.base, start, 0.0), self.link_at(l, part.base, end, lost * since)];
         // How fast its ends accelerate towards each other at most.
         let fastest: f64 = link.floors.iter().map(|&(lane, weight)| weight.abs() * largest[lane]).sum();

@@ -40,6 +40,7 @@ use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::quantities::watched::Watched;
 use crate::engine::step::Step;
 use crate::engine::system::System;
+use crate::structure::{LinearLoad, Motion};
 
 /// What finds peaks: what is watched in a system, raised over each kind of step.
 #[derive(Clone, Copy)]
@@ -64,7 +65,7 @@ impl PeakFinder<'_> {
         work: &mut PeakWork,
     ) {
         let mut peaks = std::mem::take(&mut base.peaks);
-        let end = (step.planned.length, &step.planned.q[..], &step.planned.v[..]);
+        let end = (step.planned.length, step.planned.motion());
         self.with_flight(base, inputs, end, work, |flight, work| self.check_blocks(flight, &mut peaks, work));
         base.peaks = peaks;
     }
@@ -91,11 +92,11 @@ impl PeakFinder<'_> {
         if log.is_full() {
             self.fold_log(base, (log, &mut work));
         }
-        let (motion, acceleration) = ((&base.q[..], &base.v[..]), base.segment.acceleration_at(base.elapsed));
-        log.push(motion, Load { acceleration, slope: base.segment.slope, length: planned.length });
+        let motion = base.motion();
+        log.push(motion, Load { ground: base.ground(), length: planned.length });
         if self.system.floor_forces {
             let at = |force: &LinearInput| (force.after(base.segment.start, base.elapsed), force.slope());
-            let loads = (&planned.load[..], &planned.slope[..]);
+            let loads = LinearLoad { load: &planned.load, slope: &planned.slope };
             log.push_forces(inputs.floor_forces.iter().map(at), |energies| {
                 set_energies(&self.system.structure, motion, loads, energies);
             });
@@ -109,7 +110,7 @@ impl PeakFinder<'_> {
             return;
         }
         let mut peaks = std::mem::take(&mut base.peaks);
-        let flights = log.flights_from(0, (&base.q, &base.v));
+        let flights = log.flights_from(0, base.motion());
         self.fold(&flights, &base.rest.watched, None, &mut peaks, work);
         log.clear();
         base.peaks = peaks;
@@ -122,7 +123,7 @@ impl PeakFinder<'_> {
         if base.is_yielding() {
             self.fold_log(base, (log, &mut work));
         } else {
-            log.close((&base.q, &base.v));
+            log.close(base.motion());
         }
     }
 
@@ -131,7 +132,7 @@ impl PeakFinder<'_> {
         &self,
         base: &Base,
         inputs: &Inputs,
-        (length, q, v): (f64, &[f64], &[f64]),
+        (length, end): (f64, Motion),
         work: &mut PeakWork,
         then: impl FnOnce(&Stretch, &mut PeakWork),
     ) {
@@ -140,14 +141,10 @@ impl PeakFinder<'_> {
         if self.system.floor_forces {
             self.note_floor_forces(base, inputs, &mut work.peaks.direct);
         }
-        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-        let loads = (&load[..], &slope[..]);
-        let (start, is_suspect) = ((&base.q[..], &base.v[..]), false);
+        let (ground, loads) = (base.ground(), LinearLoad { load: &load, slope: &slope });
+        let (start, is_suspect) = (base.motion(), false);
         let rest = &base.rest.watched;
-        then(
-            &Stretch { start, end: (q, v), loads, rest, ground, length, is_suspect, searched: 0.0, whole: None },
-            work,
-        );
+        then(&Stretch { start, end, loads, rest, ground, length, is_suspect, searched: 0.0, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }

@@ -7,7 +7,7 @@ use crate::numerics::polynomial::{Coefficients, MAX_TERMS, larger};
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{LANES, MotionSeries, dot};
+use crate::structure::{LANES, LinearGround, MotionSeries, dot};
 use std::ops::Range;
 
 /// A quantity as rows over the motion in some coordinates.
@@ -21,8 +21,8 @@ pub struct Quantity<'a> {
     pub span: (usize, usize),
     /// What is added to the product of its rows and the motion: its value at rest.
     pub at_rest: f64,
-    /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
-    pub ground: (f64, f64),
+    /// From the start of the series on.
+    pub ground: LinearGround,
     /// Whether its rows are over oscillators: then the second one counts for every quantity.
     pub oscillates: bool,
 }
@@ -70,8 +70,8 @@ impl Quantity<'_> {
         }
         if let PeakOf::Acceleration(..) = self.of {
             (2..=order).for_each(|n| terms[n - 2] = (n * (n - 1)) as f64 * (terms[n] * per_unit * per_unit));
-            terms[0] += self.ground.0;
-            terms[1] += self.ground.1 * series.scale;
+            terms[0] += self.ground.acceleration;
+            terms[1] += self.ground.slope * series.scale;
             order -= 2;
         }
         terms[0] += self.at_rest;

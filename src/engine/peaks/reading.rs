@@ -16,7 +16,7 @@ use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::MotionSeries;
+use crate::structure::{LinearGround, Motion, MotionMut, MotionSeries};
 
 /// The x at which a step that begins with an entry is first read: at 0 forces of power laws have no finite slope, and the terms
 /// of an onset step are divided by powers of the time.
@@ -36,26 +36,20 @@ pub struct ContactStep<'a> {
     /// Length, s.
     pub length: f64,
     /// q and v at the end, in the coordinates of the base and relative to its position of rest.
-    pub end: (&'a [f64], &'a [f64]),
+    pub end: Motion<'a>,
 }
 
 impl<'a> ContactStep<'a> {
     /// The whole of a step.
     pub fn whole((base, step, inputs): (&'a Base, &'a Step, &'a Inputs), starts: &'a [(f64, f64)]) -> ContactStep<'a> {
         let planned = &step.planned;
-        ContactStep { base, step, inputs, starts, length: planned.length, end: (&planned.q, &planned.v) }
-    }
-
-    /// Ground acceleration at the start, m/s2, and its slope, m/s3.
-    pub fn ground(&self) -> (f64, f64) {
-        let Base { segment, elapsed, .. } = self.base;
-        (segment.acceleration_at(*elapsed), segment.slope)
+        ContactStep { base, step, inputs, starts, length: planned.length, end: planned.motion() }
     }
 
     /// The largest magnitude of the ground acceleration, m/s2.
     pub fn strongest_ground(&self) -> f64 {
-        let (ground, slope) = self.ground();
-        larger(ground.abs(), (ground + slope * self.length).abs())
+        let ground = self.base.ground();
+        larger(ground.acceleration.abs(), ground.after(self.length).abs())
     }
 }
 
@@ -133,7 +127,7 @@ impl PeakFinder<'_> {
         step.set_powers(time, &mut powers);
         powers.set_in_time(&step.taylor.series.time_map);
         step.taylor.series.evaluate(&powers, q, v);
-        self.find_floors(base.coordinates, (&base.rest, (q, v)), floors, modal);
+        self.find_floors(base.coordinates, (&base.rest, Motion { q, v }), floors, modal);
         self.soften(base, q, floors);
         if self.system.floor_forces {
             self.add_forces((base, inputs), time, &mut floors.resisted);
@@ -156,16 +150,15 @@ impl PeakFinder<'_> {
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> Knot {
-        let (ground, ground_slope) = quantity.ground;
-        let ground = ground + ground_slope * time;
+        let ground = quantity.ground.later(time);
         let (place, is_known, mut room) = work.peaks.readings.take(time);
         if !is_known {
-            self.read_motion((ground, ground_slope), window, part, &mut room, work);
+            self.read_motion(ground, window, part, &mut room, work);
         }
         let ReadingRoom { q, v, acceleration, jerk, .. } = &room;
         let (value, slope) = match quantity.of {
             PeakOf::Acceleration(..) => {
-                (quantity.of_motion(acceleration) + ground, quantity.of_motion(jerk) + ground_slope)
+                (quantity.of_motion(acceleration) + ground.acceleration, quantity.of_motion(jerk) + ground.slope)
             }
             _ => {
                 let value = quantity.at_rest + (quantity.of_motion(q) + quantity.of_rate(v));
@@ -176,11 +169,11 @@ impl PeakFinder<'_> {
         Knot { x: time, value, slope }
     }
 
-    /// Evaluates the motion at the time of a room, its accelerations and their rates, from the equations of motion with that
-    /// acceleration of the ground and its slope.
+    /// Evaluates the motion at the time of a room, its accelerations and their rates, from the equations of motion with the
+    /// ground's acceleration from there on.
     fn read_motion(
         &self,
-        (ground, ground_slope): (f64, f64),
+        ground: LinearGround,
         (window, series): (&Window, &MotionSeries),
         part: &ContactStep,
         ReadingRoom { time, q, v, acceleration, jerk }: &mut ReadingRoom,
@@ -192,19 +185,17 @@ impl PeakFinder<'_> {
         let Window { contacts, equation, solution, .. } = window;
         let contacts = &contacts[..equation.closed];
         if time == 0.0 {
-            q.copy_from_slice(&base.q);
-            v.copy_from_slice(&base.v);
+            MotionMut { q, v }.copy_from(base.motion());
             pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = part.starts[p]);
         } else if time == step.planned.length {
-            q.copy_from_slice(&step.planned.q);
-            v.copy_from_slice(&step.planned.v);
+            MotionMut { q, v }.copy_from(step.planned.motion());
             pairs.copy_from_slice(&solution.end);
         } else {
             let free = FreeMotion::of(self.system, (base, inputs), series, work.buffers);
-            window.evaluate_with_pairs(self.system, free, time, (q, v), &mut pairs);
+            window.evaluate_with_pairs(self.system, free, time, MotionMut { q, v }, &mut pairs);
         }
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
-            (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);
+            (acceleration[lane], jerk[lane]) = (-share * ground.acceleration, -share * ground.slope);
         }
         let at = base.elapsed + time;
         self.system.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
@@ -249,7 +240,7 @@ impl OnsetQuantity {
         Some(OnsetQuantity { terms, at_rest: quantity.at_rest })
     }
 
-    fn read(&self, time: f64, onset: &OnsetSeries, (ground, ground_slope): (f64, f64)) -> Knot {
+    fn read(&self, time: f64, onset: &OnsetSeries, ground: LinearGround) -> Knot {
         let x = time / onset.scale;
         let (mut value, mut slope) = (0.0, 0.0);
         if let Some(grid) = onset.grid() {
@@ -266,7 +257,7 @@ impl OnsetQuantity {
         slope /= onset.scale;
         value += self.at_rest;
         if self.terms[2].iter().any(|term| *term != 0.0) {
-            (value, slope) = (value + ground + ground_slope * time, slope + ground_slope);
+            (value, slope) = (value + ground.acceleration + ground.slope * time, slope + ground.slope);
         }
         Knot { x: time, value, slope }
     }

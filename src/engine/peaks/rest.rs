@@ -4,7 +4,7 @@ use crate::engine::base::{Base, Coordinates, Rest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::rows::{BodyRows, PeakOf, values_of};
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, Side};
+use crate::structure::{LANES, Lane, Motion, Side};
 
 impl PeakFinder<'_> {
     /// Writes the watched quantities in the position of rest of the storeys of the base: accelerations are 0, and so are base
@@ -32,7 +32,7 @@ impl PeakFinder<'_> {
         &self,
         (body, b): (&BodyRows, usize),
         rest: &[f64],
-        (q, v): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
     ) -> Lane {
         let (values, at_rest) = (values_of(&body.blocks[b], q, v), &rest.as_chunks::<LANES>().0[body.first + b]);
         each(|i| values[i] + at_rest[i])

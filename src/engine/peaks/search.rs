@@ -10,7 +10,7 @@ use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, Interval, LANES, Lane, Scratch, Structure, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
 /// its terms are relative to the jump: 12 leave 5e-14 of that at any length.
@@ -269,9 +269,9 @@ impl PeakFinder<'_> {
         self.set_load(flight, piece.from, work);
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
         let [q, v, end_q, end_v] = &peaks.pieces;
-        let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
-        let own =
-            Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
+        let (loads, length) = (LinearLoad { load: &peaks.load, slope: flight.loads.slope }, piece.to - piece.from);
+        let (start, end) = (Motion { q, v }, Motion { q: end_q, v: end_v });
+        let own = Stretch { start, end, loads, length, is_suspect: false, whole: None, ..*flight };
         let modes = self.watched.in_flight().bodies[self.body_of(&suspects[0])].modes.clone();
         peaks.piece.set(self.system.structure.in_flight(), modes, &own, jerk);
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
@@ -299,7 +299,7 @@ impl PeakFinder<'_> {
             return;
         }
         let Piece { from, to, .. } = leaf;
-        let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
+        let (mut rows, ground) = (std::mem::take(&mut work.peaks.rows), flight.ground.later(from));
         let oscillates = self.watched.oscillates();
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
         let span = self.span_of(self.body_of(&suspects[0]), Coordinates::Modes);
@@ -308,15 +308,7 @@ impl PeakFinder<'_> {
             let of = suspect.of;
             self.set_flight_rows(of, &mut rows);
             let at_rest = flight.rest[suspect.place];
-            let quantity = Quantity {
-                of,
-                rows: &rows,
-                lanes: None,
-                span,
-                at_rest,
-                ground: (ground + slope * from, slope),
-                oscillates,
-            };
+            let quantity = Quantity { of, rows: &rows, lanes: None, span, at_rest, ground, oscillates };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
             suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }
@@ -333,12 +325,12 @@ impl PeakFinder<'_> {
         series.expand_flight_of(
             modes.0..modes.1,
             self.system.structure.in_flight(),
-            (q, v),
-            (load, flight.loads.1),
+            Motion { q, v },
+            LinearLoad { load, slope: flight.loads.slope },
             (leaf.to - leaf.from, order),
         );
         if leaf.is_settled {
-            self.expand_settled(modes.0..modes.1, flight.loads.1, work);
+            self.expand_settled(modes.0..modes.1, flight.loads.slope, work);
         }
     }
 
@@ -380,18 +372,17 @@ impl PeakFinder<'_> {
                     if !is_prepared {
                         interval.prepare(moving, time);
                     }
-                    interval.fly(flight.start, flight.loads, (flown_q, flown_v), scratch);
+                    interval.fly(flight.start, flight.loads, MotionMut { q: flown_q, v: flown_v }, scratch);
                 }
-                (&flown_q[..], &flown_v[..])
+                Motion { q: flown_q, v: flown_v }
             }
         };
-        q.copy_from_slice(known.0);
-        v.copy_from_slice(known.1);
+        MotionMut { q, v }.copy_from(known);
     }
 
     /// Works out the modal load at a time of a flight.
     pub(super) fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
-        let (start, slope) = flight.loads;
+        let LinearLoad { load: start, slope } = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
             *load = start + slope * time;
         }
@@ -413,8 +404,7 @@ fn fly_by_halves(
     [q, v, next_q, next_v]: [&mut Vec<f64>; 4],
 ) {
     let (mut from, mut to, mut length) = (0.0, flight.length, flight.length);
-    q.copy_from_slice(flight.start.0);
-    v.copy_from_slice(flight.start.1);
+    MotionMut { q, v }.copy_from(flight.start);
     while from < time {
         let middle = from + 0.5 * (to - from);
         // No more than rounding is left.
@@ -430,7 +420,7 @@ fn fly_by_halves(
         if !is_prepared {
             interval.prepare(moving, length);
         }
-        interval.fly_from(from, (q, v), flight.loads, (next_q, next_v), scratch);
+        interval.fly_from(from, Motion { q, v }, flight.loads, MotionMut { q: next_q, v: next_v }, scratch);
         std::mem::swap(q, next_q);
         std::mem::swap(v, next_v);
         from = middle;

@@ -73,7 +73,7 @@ impl PeakFinder<'_> {
         let PeakRoom { pieces: [q, v, left_q, left_v], load, creeps, .. } = &mut *work.peaks;
         for m in modes.clone() {
             let is_quick = fastest_of(moving, m) * (piece.to - piece.from) > LEAF_ANGLE;
-            let Rest { creep, quick, .. } = Rest::of(moving, m, (q[m], v[m]), (load[m], flight.loads.1[m]));
+            let Rest { creep, quick, .. } = Rest::of(moving, m, (q[m], v[m]), (load[m], flight.loads.slope[m]));
             ([left_q[m], left_v[m]], creeps[m]) = (quick, if is_quick { creep } else { f64::NAN });
         }
         let [q, v, left_q, left_v] = [q, v, left_q, left_v].map(|vector| &vector[modes.clone()]);

@@ -11,7 +11,7 @@
 //! For bounds by amplitudes e = sqrt(x'^2 + w^2 x^2) the size |A| + (w + c) |B| stands for |A|: it times e bounds |y'|, it
 //! times (w + c) e bounds |y''|, and so on.
 
-use crate::structure::{MotionSeries, Structure, difference, dot};
+use crate::structure::{Motion, MotionSeries, Structure, difference, dot};
 
 /// The rows of a quantity over oscillators.
 #[derive(Clone, Debug)]
@@ -30,9 +30,6 @@ pub(crate) enum FlightRow<'a> {
     OfModes(&'a [f64]),
     OfOscillators(&'a OscillatorRows),
 }
-
-/// Displacements and velocities, or the coordinates of oscillators and their rates.
-pub(crate) type Motion<'a> = (&'a [f64], &'a [f64]);
 
 impl OscillatorRows {
     /// Of a row over displacements of the modes; `None` where modes move in flights.
@@ -63,7 +60,7 @@ impl OscillatorRows {
 }
 
 #[inline(always)]
-fn both([a, b]: &[Vec<f64>; 2], (q, v): Motion) -> f64 {
+fn both([a, b]: &[Vec<f64>; 2], Motion { q, v }: Motion) -> f64 {
     dot(a, q) + dot(b, v)
 }
 
@@ -76,7 +73,7 @@ impl<'a> FlightRow<'a> {
     #[inline(always)]
     pub(crate) fn value(self, motion: Motion) -> f64 {
         match self {
-            FlightRow::OfModes(row) => dot(row, motion.0),
+            FlightRow::OfModes(row) => dot(row, motion.q),
             FlightRow::OfOscillators(rows) => both(&rows.value, motion),
         }
     }
@@ -84,7 +81,7 @@ impl<'a> FlightRow<'a> {
     #[inline(always)]
     pub(crate) fn rate(self, motion: Motion) -> f64 {
         match self {
-            FlightRow::OfModes(row) => dot(row, motion.1),
+            FlightRow::OfModes(row) => dot(row, motion.v),
             FlightRow::OfOscillators(rows) => both(&rows.rate, motion),
         }
     }
@@ -107,7 +104,7 @@ impl<'a> FlightRow<'a> {
     }
 
     /// Sum of the magnitudes that a value is made of.
-    pub(crate) fn size(self, (q, v): Motion) -> f64 {
+    pub(crate) fn size(self, Motion { q, v }: Motion) -> f64 {
         match self {
             FlightRow::OfModes(row) => difference(row, q).1,
             FlightRow::OfOscillators(rows) => difference(&rows.value[0], q).1 + difference(&rows.value[1], v).1,

@@ -5,7 +5,7 @@ use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::numerics::sum::Sum;
-use crate::structure::{Interval, MotionSeries, Scratch, Structure, WorkRoom};
+use crate::structure::{Interval, LinearLoad, MotionSeries, Scratch, Structure, WorkRoom};
 
 /// Scratch vectors, each with one number per lane of the motion.
 #[derive(Clone, Debug)]
@@ -45,6 +45,11 @@ pub struct Buffers {
 }
 
 impl Buffers {
+    /// The load with its rate.
+    pub fn loads(&self) -> LinearLoad<'_> {
+        LinearLoad { load: &self.load, slope: &self.slope }
+    }
+
     /// Allocates for a structure with that many rigid pairs.
     pub fn new(structure: &Structure, rigid: usize) -> Buffers {
         let lanes = structure.lanes;

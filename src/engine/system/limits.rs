@@ -6,9 +6,10 @@ use crate::engine::base::storey::Sense;
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::bounds::oscillation::Oscillation;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::quantities::flight_row::{FlightRow, Motion};
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
 use crate::engine::yielding::element::Element;
+use crate::structure::{LinearLoad, Motion};
 
 impl System {
     /// Number of all rows with limits.
@@ -39,7 +40,7 @@ impl System {
 
     /// Whether no quantity reaches a limit within `length` seconds from a modal motion on, under a load and its slope,
     /// by the envelopes of the oscillations. Gaps and limits are those of the base.
-    pub fn envelopes_stay_within(&self, base: &Base, motion: Motion, loads: (&[f64], &[f64]), length: f64) -> bool {
+    pub fn envelopes_stay_within(&self, base: &Base, motion: Motion, loads: LinearLoad, length: f64) -> bool {
         let oscillation = Oscillation::of(self.structure.in_flight(), motion, loads, length);
         let Some(oscillation) = oscillation.filter(|_| !cfg!(without = "envelopes")) else { return false };
         let mut pairs = self.pairs.iter().zip(&base.rest.gaps);

@@ -26,7 +26,9 @@ use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Side, Structure};
+use crate::structure::{
+    FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Side, Structure,
+};
 
 /// From more modes on windows take less time than power series floor by floor: these need more instructions from some 30
 /// on, of which more go at once (measured).
@@ -128,7 +130,8 @@ impl System {
         };
         let rest = self.rest_of(&self.initial_storeys);
         let pairs = self.pairs.iter().zip(&rest.gaps).enumerate();
-        let contacts: Vec<Contact> = pairs.map(|(p, (pair, gap))| pair.at_start(p, time, *gap, (&q, &v))).collect();
+        let contacts: Vec<Contact> =
+            pairs.map(|(p, (pair, gap))| pair.at_start(p, time, *gap, Motion { q: &q, v: &v })).collect();
         Base {
             segment,
             elapsed: time - segment.start,
@@ -186,7 +189,7 @@ impl System {
     /// The load at the base per unit of mass, in its coordinates, and its rate of change until the segment's end.
     pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
-        let ground = (segment.acceleration_at(*elapsed), segment.slope);
+        let ground = base.ground();
         match base.oscillates {
             true => self.load_in_flight(ground, load, slope),
             false => set_load(self.participation(*coordinates), ground, load, slope),
@@ -198,7 +201,7 @@ impl System {
     }
 
     /// The load in flights by the ground's acceleration and its slope alone.
-    pub fn load_in_flight(&self, ground: (f64, f64), load: &mut [f64], slope: &mut [f64]) {
+    pub fn load_in_flight(&self, ground: LinearGround, load: &mut [f64], slope: &mut [f64]) {
         set_load(&self.structure.in_flight().participation, ground, load, slope);
     }
 
@@ -240,7 +243,7 @@ impl System {
     pub fn accelerate(
         &self,
         coordinates: Coordinates,
-        (q, v): (&[f64], &[f64]),
+        Motion { q, v }: Motion,
         load: &[f64],
         acceleration: &mut [f64],
     ) {
@@ -286,7 +289,7 @@ impl System {
         [room_q, room_v]: [&mut Vec<f64>; 2],
     ) {
         if let (true, Some(flight)) = (std::mem::take(oscillates), self.structure.oscillators()) {
-            flight.to_modes((q, v), (room_q, room_v));
+            flight.to_modes(Motion { q, v }, MotionMut { q: room_q, v: room_v });
             std::mem::swap(q, room_q);
             std::mem::swap(v, room_v);
         }
@@ -304,7 +307,7 @@ impl System {
         }
         self.convert(base, Coordinates::Modes, [room_q, room_v]);
         if let Some(flight) = self.structure.oscillators() {
-            flight.from_modes((&base.q, &base.v), (room_q, room_v));
+            flight.from_modes(base.motion(), MotionMut { q: room_q, v: room_v });
             std::mem::swap(&mut base.q, room_q);
             std::mem::swap(&mut base.v, room_v);
             base.oscillates = true;
@@ -314,12 +317,12 @@ impl System {
 
 /// The load by the ground's acceleration and its slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn set_load(shares: &[f64], (acceleration, rate): (f64, f64), load: &mut [f64], slope: &mut [f64]) {
+fn set_load(shares: &[f64], ground: LinearGround, load: &mut [f64], slope: &mut [f64]) {
     for (load, share) in load.iter_mut().zip(shares) {
-        *load = -share * acceleration;
+        *load = -share * ground.acceleration;
     }
     for (slope, share) in slope.iter_mut().zip(shares) {
-        *slope = -share * rate;
+        *slope = -share * ground.slope;
     }
 }
 

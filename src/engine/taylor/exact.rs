@@ -8,6 +8,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::roots::deviation;
+use crate::structure::Motion;
 
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
@@ -66,8 +67,8 @@ impl System {
             self.first_change(base, solution, (i, sense), &mut first);
         }
         for (i, (of, present)) in self.elements(&base.storeys).enumerate() {
-            let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));
-            let (start, end) = (at((&base.q, &base.v)), at((&planned.q, &planned.v)));
+            let at = |Motion { q, v }: Motion| (of.drift(coordinates, q), of.drift(coordinates, v));
+            let (start, end) = (at(base.motion()), at(planned.motion()));
             let off = deviation(h, of.row.difference(coordinates, fourths).1);
             if present.0.yields.is_none() && !of.stays_elastic(present, start, end, (h, off)) {
                 let expanded = ((&solution.series, solution.end.in_time().0), None, true);

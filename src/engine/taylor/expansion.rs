@@ -8,7 +8,6 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::drifts::WithYielding;
 use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
 use crate::structure::{difference, dot, flight_order};
 
@@ -37,7 +36,7 @@ impl System {
 
     /// Extends the started series to `order`.
     fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
-        let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
+        let (structure, loads) = (&self.structure, work.loads());
         let Solution { series, closed, drifts, .. } = solution;
         let storeys = &self.storeys[..];
         match base.coordinates {
@@ -68,7 +67,7 @@ impl System {
             }
             Coordinates::Modes => {
                 while solution.series.order < order {
-                    self.extend_together(solution, (&work.load, &work.slope), &mut work.rigid);
+                    self.extend_together(solution, work);
                 }
             }
         }
@@ -91,7 +90,7 @@ impl System {
     }
 
     /// Extends the series on modes by one power, with the reactions between floors that are held together.
-    fn extend_together(&self, solution: &mut Solution, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
+    fn extend_together(&self, solution: &mut Solution, Buffers { load, slope, rigid, .. }: &mut Buffers) {
         let Solution { series, closed, drifts, reactions, reaction_order, .. } = solution;
         let n = series.order - 1;
         let scale = series.scale;
@@ -99,7 +98,7 @@ impl System {
         let load_of_power = |out: &mut [f64]| {
             match n {
                 0 => out.copy_from_slice(load),
-                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
+                1 => out.iter_mut().zip(&*slope).for_each(|(out, slope)| *out = slope * scale),
                 _ => {}
             }
             closed.each_force(n, |p, force| self.push_apart_by(p, Coordinates::Modes, force, out));

@@ -9,6 +9,7 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::yielding::element::Element;
 use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
+use crate::structure::Motion;
 
 /// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger
 /// than the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
@@ -19,7 +20,7 @@ impl System {
     /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&Element, &Storey)| {
-            let still = STILL * self.size_of_rate(of, base.coordinates, (&base.q, &base.v), 1.0);
+            let still = STILL * self.size_of_rate(of, base.coordinates, base.motion(), 1.0);
             storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
         };
         self.storeys.iter().zip(&base.storeys).position(goes_back)
@@ -28,7 +29,7 @@ impl System {
     /// Sum of the magnitudes that the rate of a drift is made of, from displacements and velocities times a
     /// time, s: where oscillators move in
     /// flights, velocities have the rounding of both.
-    fn size_of_rate(&self, of: &Element, coordinates: Coordinates, (q, v): (&[f64], &[f64]), scale: f64) -> f64 {
+    fn size_of_rate(&self, of: &Element, coordinates: Coordinates, Motion { q, v }: Motion, scale: f64) -> f64 {
         let of_rates = of.row.difference(coordinates, v).1;
         match self.structure.oscillators() {
             Some(_) => of_rates + self.structure.fastest * scale * of.row.difference(coordinates, q).1,
@@ -99,7 +100,8 @@ impl System {
             terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
         }
         let [q, step] = [0, 1].map(|n| series.term(n));
-        let still = STILL * self.size_of_rate(&self.storeys[i], drifts.coordinates, (q, step), series.scale);
+        let still =
+            STILL * self.size_of_rate(&self.storeys[i], drifts.coordinates, Motion { q, v: step }, series.scale);
         if terms[0] >= -still {
             // What is rounding shall not decide.
             let mut drift = [0.0; MAX_TERMS];

@@ -16,7 +16,7 @@ use crate::engine::flight::Flight;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::value_and_slope;
-use crate::structure::{Structure, dot};
+use crate::structure::{LinearLoad, Structure, dot};
 
 /// Numbers of segments for which the broad phase looks ahead.
 const AHEAD: [usize; 6] = [1, 4, 6, 16, 24, 64];
@@ -176,7 +176,7 @@ fn envelopes_are_never_left() {
             limit_storey(&mut case.system, 1e9);
             *(if is_storey { &mut case.system.storeys[0].limit } else { &mut case.base.rest.gaps[p] }) = limit;
             let Case { system, base, .. } = &case;
-            system.envelopes_stay_within(base, (&base.q, &base.v), (&load, &slope), time)
+            system.envelopes_stay_within(base, base.motion(), LinearLoad { load: &load, slope: &slope }, time)
         });
         let reached = largest(course(&row, &motion).map(value));
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {time:e} s");

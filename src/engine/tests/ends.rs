@@ -15,6 +15,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::roots::{deviation, highest_of_cubic};
+use crate::structure::{LinearLoad, Motion};
 
 #[test]
 fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
@@ -37,7 +38,8 @@ fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
         let Case { system, base, work, .. } = &mut case;
         let flying = system.structure.in_flight();
         let certificate = Certificate::of(&system.structure, [&row.sizes[..]].into_iter());
-        let bound = certificate.deviation(flying, (&base.q, &base.v), (&load, &slope), h, &mut work.scratch);
+        let loads = LinearLoad { load: &load, slope: &slope };
+        let bound = certificate.deviation(flying, base.motion(), loads, h, &mut work.scratch);
         let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (row.value(q, v), row.rate(q, v)));
         let cubic = |x: f64| hermite(from, to, h, x);
         let off = course(&row, &motion).enumerate().map(|(i, value)| (value - cubic(i as f64 / 16.0)).abs());
@@ -108,7 +110,7 @@ fn both_ends_show_that_a_flight_is_free() {
             system.storeys[0].limit = 1e9;
             *(if p == 3 { &mut system.storeys[0].limit } else { &mut base.rest.gaps[p] }) = limit;
             for ((pair, gap), contact) in system.pairs.iter().zip(&base.rest.gaps).zip(&mut base.contacts) {
-                (contact.penetration, contact.rate) = pair.penetration(*gap, (&base.q, &base.v));
+                (contact.penetration, contact.rate) = pair.penetration(*gap, Motion { q: &base.q, v: &base.v });
             }
             planned.ends.clear();
             let mut at = At { base, inputs: &Inputs::of([1, 1], false), counters: &mut Counters::default() };

@@ -12,7 +12,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, Scratch, Structure, dot};
+use crate::structure::{Interval, LinearLoad, Motion, MotionMut, Scratch, Structure, dot};
 
 /// Random numbers that are the same in every run (splitmix64).
 pub struct Random(pub u64);
@@ -259,7 +259,8 @@ impl Case {
                 load.iter().zip(&slope).map(|(load, slope)| load + slope * (i as f64 * piece)).collect();
             let (mut end, [q, v]) = ([now.clone(), now.clone()], &states[i]);
             let [end_q, end_v] = &mut end;
-            interval.fly((q, v), (&now, &slope), (end_q, end_v), &mut scratch);
+            let loads = LinearLoad { load: &now, slope: &slope };
+            interval.fly(Motion { q, v }, loads, MotionMut { q: end_q, v: end_v }, &mut scratch);
             states.push(end);
         }
         states
@@ -271,7 +272,7 @@ impl Case {
         let Case { system, base, work, .. } = self;
         base.clearance = Clearance::new(system.cleared());
         for (p, pair) in system.pairs.iter().enumerate() {
-            let (penetration, rate) = pair.penetration(base.rest.gaps[p], (&base.q, &base.v));
+            let (penetration, rate) = pair.penetration(base.rest.gaps[p], base.motion());
             (base.contacts[p].penetration, base.contacts[p].rate) = (penetration, rate);
         }
         let ground = system.ground.as_ref().unwrap();
@@ -283,8 +284,7 @@ impl Case {
     pub fn for_contact(&self, p: usize, gap: f64) -> Base {
         let mut base = self.base.clone();
         base.rest.gaps[p] = gap;
-        (base.contacts[p].penetration, base.contacts[p].rate) =
-            self.system.pairs[p].penetration(gap, (&base.q, &base.v));
+        (base.contacts[p].penetration, base.contacts[p].rate) = self.system.pairs[p].penetration(gap, base.motion());
         let mut room = [(); 2].map(|()| vec![0.0; base.q.len()]);
         self.system.convert(&mut base, self.system.contact_coordinates, room.each_mut());
         base

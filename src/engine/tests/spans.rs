@@ -12,7 +12,7 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Lane, Scratch};
+use crate::structure::{Interval, LANES, Lane, LinearGround, LinearLoad, Motion, MotionMut, Scratch};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -64,7 +64,7 @@ impl Case {
     /// velocities, after a gap if there are flights already; under forces that act on all floors, on one or on none for some
     /// flights each.
     fn fly(&mut self, random: &mut Random, samples: usize, factor: f64) {
-        self.log.close((&self.end.0, &self.end.1));
+        self.log.close(Motion { q: &self.end.0, v: &self.end.1 });
         let (mut state, system) = (self.model.start(0.0), &self.model.system);
         system.convert_to_flight(&mut state.base, [(); 2].map(|()| vec![0.0; system.structure.lanes]).each_mut());
         state.base.v.iter_mut().for_each(|v| *v *= factor);
@@ -85,7 +85,7 @@ impl Case {
                     };
                 }
             }
-            let load = Load { acceleration: segment.acceleration, slope: segment.slope, length: segment.length };
+            let load = Load { ground: segment.ground_from(0.0), length: segment.length };
             self.push(load, &forces);
             self.end = self.within(self.log.count() - 1, segment.length);
         }
@@ -93,13 +93,14 @@ impl Case {
 
     fn push(&mut self, load: Load, forces: &[(f64, f64)]) {
         let Case { model, log, end: (q, v) } = self;
-        let system = &model.system;
-        log.push((q, v), load);
+        let (system, motion) = (&model.system, Motion { q, v });
+        log.push(motion, load);
         let [mut loads, mut rates] = [(); 2].map(|()| vec![0.0; model.system.structure.lanes]);
-        system.load_in_flight((load.acceleration, load.slope), &mut loads, &mut rates);
+        system.load_in_flight(load.ground, &mut loads, &mut rates);
         system.add_forces(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
         system.add_forces(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
-        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, (q, v), (&loads, &rates), out));
+        let loads = LinearLoad { load: &loads, slope: &rates };
+        log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, motion, loads, out));
     }
 
     /// The motion at a time of flight `k`, s.
@@ -107,16 +108,15 @@ impl Case {
         let (system, lanes) = (&self.model.system, self.model.system.structure.lanes);
         let (flights, mut scratch) = (self.flights(), Scratch::new(lanes));
         let [mut load, mut rate, mut q, mut v] = [(); 4].map(|()| vec![0.0; lanes]);
-        let Load { acceleration, slope, .. } = flights.load(k);
-        system.load_in_flight((acceleration, slope), &mut load, &mut rate);
+        system.load_in_flight(flights.load(k).ground, &mut load, &mut rate);
         if let Some((forces, rates)) = flights.forces.and_then(|forces| forces.acting(k)) {
             system.add_forces(forces.iter().copied(), Coordinates::Modes, &mut load);
             system.add_forces(rates.iter().copied(), Coordinates::Modes, &mut rate);
         }
         Interval::new(system.structure.in_flight(), time).fly(
             flights.motion(k),
-            (&load, &rate),
-            (&mut q, &mut v),
+            LinearLoad { load: &load, slope: &rate },
+            MotionMut { q: &mut q, v: &mut v },
             &mut scratch,
         );
         (q, v)
@@ -127,7 +127,7 @@ impl Case {
         let (flights, length) = (self.flights(), self.flights().load(k).length);
         let start = flights.motion(k);
         let later = (1..=INSTANTS).filter(|_| length > 0.0).map(|j| self.within(k, time_of(j, length)));
-        std::iter::once((start.0.to_vec(), start.1.to_vec())).chain(later).collect()
+        std::iter::once((start.q.to_vec(), start.v.to_vec())).chain(later).collect()
     }
 
     /// What a force adds to a quantity at a time of flight `k`, s.
@@ -141,7 +141,7 @@ impl Case {
     }
 
     fn flights(&self) -> Flights<'_> {
-        self.log.flights_from(0, (&self.end.0, &self.end.1))
+        self.log.flights_from(0, Motion { q: &self.end.0, v: &self.end.1 })
     }
 }
 
@@ -258,9 +258,10 @@ fn no_quantity_leaves_its_envelope() {
             case.model.watched.in_flight().bodies.iter().flat_map(|rows| rows.modes.clone().map(move |m| (rows, m)))
         {
             let ground = [(0.0, 0.0), (1.0, 0.0), (0.5, random.between(-9.0, 9.0))];
-            let (a, s) = random.one_of(&ground);
+            let (acceleration, rate) = random.one_of(&ground);
+            let ground = LinearGround { acceleration, slope: rate };
             let [mut load, mut slope, mut q, mut v] = [(); 4].map(|()| vec![0.0; structure.lanes]);
-            case.model.system.load_in_flight((a, s), &mut load, &mut slope);
+            case.model.system.load_in_flight(ground, &mut load, &mut slope);
             for m in rows.modes.clone() {
                 let (w2, c) = (structure.omega2[m], structure.damping[m]);
                 (q[m], v[m]) = ((load[m] - c * slope[m] / w2) / w2, slope[m] / w2);
@@ -277,9 +278,9 @@ fn no_quantity_leaves_its_envelope() {
                 let [end_q, end_v] = &mut end;
                 let time = length * f64::from(k) / 512.0;
                 Interval::new(structure, time).fly(
-                    (&q, &v),
-                    (&load, &slope),
-                    (end_q, end_v),
+                    Motion { q: &q, v: &v },
+                    LinearLoad { load: &load, slope: &slope },
+                    MotionMut { q: end_q, v: end_v },
                     &mut Scratch::new(structure.lanes),
                 );
                 for (block, reached) in rows.blocks.iter().zip(&mut reached) {
@@ -288,11 +289,11 @@ fn no_quantity_leaves_its_envelope() {
                 }
             }
             let stretch = Stretch {
-                start: (&q, &v),
-                end: (&end[0], &end[1]),
-                loads: (&load, &slope),
+                start: Motion { q: &q, v: &v },
+                end: Motion { q: &end[0], v: &end[1] },
+                loads: LinearLoad { load: &load, slope: &slope },
                 rest: &[],
-                ground: (a, s),
+                ground,
                 length,
                 is_suspect: false,
                 searched: 0.0,

@@ -7,6 +7,7 @@ use crate::engine::bounds::amplitude::{MARGIN, pushed};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::solution::Window;
+use crate::structure::LinearLoad;
 
 impl Window {
     /// Whether no storey yields within the window; the load at its start is in `work`.
@@ -18,7 +19,7 @@ impl Window {
         let Buffers { load, slope, node_v: amplitudes, .. } = work;
         let closed = self.contacts.iter().zip(&self.greatest).take(self.equation.closed);
         let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row.modes[..], h * greatest));
-        pushed(&system.structure.omega2, (&base.q, &base.v), (load, slope), h, impulses, amplitudes);
+        pushed(&system.structure.omega2, base.motion(), LinearLoad { load, slope }, h, impulses, amplitudes);
         system.together.largest_share(amplitudes) + system.moved_share(&base.storeys) < 1.0
             || system.elements(&base.storeys).all(|(of, (_, centre))| {
                 let most: f64 =

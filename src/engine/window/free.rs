@@ -6,7 +6,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{FreeRows, Interval, MotionSeries, dot};
+use crate::structure::{FreeRows, Interval, LinearLoad, MotionMut, MotionSeries, dot};
 
 /// The source of the polynomials of the pairs' distances.
 #[derive(Clone, Copy)]
@@ -39,8 +39,7 @@ impl FreeTerms<'_> {
         match self {
             FreeTerms::Series(series) => series.dot_each(&system.pairs[p].row.modes, 2, out),
             FreeTerms::Rows(rows, base) => {
-                let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
-                rows.enter(p, (&base.q, &base.v), ground, out);
+                rows.enter(p, base.motion(), base.ground(), out);
             }
         }
     }
@@ -63,7 +62,7 @@ impl FreeTerms<'_> {
 pub enum FreeMotion<'a> {
     Series(&'a MotionSeries, &'a mut Powers),
     /// The exact flight from the base, under a load and its slope; with memory for it.
-    Flight(&'a Base, (&'a [f64], &'a [f64]), &'a mut Interval),
+    Flight(&'a Base, LinearLoad<'a>, &'a mut Interval),
 }
 
 impl<'a> FreeMotion<'a> {
@@ -78,18 +77,18 @@ impl<'a> FreeMotion<'a> {
             return FreeMotion::Series(series, &mut work.powers);
         }
         system.load(base, inputs, &mut work.load, &mut work.slope);
-        FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval)
+        FreeMotion::Flight(base, LinearLoad { load: &work.load, slope: &work.slope }, &mut work.interval)
     }
 
     /// q and v at a time, s.
-    pub fn evaluate(self, system: &System, elapsed: f64, (q, v): (&mut [f64], &mut [f64])) {
+    pub fn evaluate(self, system: &System, elapsed: f64, MotionMut { q, v }: MotionMut) {
         match self {
             FreeMotion::Series(series, powers) => {
                 powers.set(elapsed / series.scale, series.order);
                 series.evaluate(powers, q, v);
             }
             FreeMotion::Flight(base, loads, interval) => {
-                system.fly_uncoupled(base, elapsed, loads, interval, (q, v));
+                system.fly_uncoupled(base, elapsed, loads, interval, MotionMut { q, v });
             }
         }
     }

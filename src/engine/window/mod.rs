@@ -26,7 +26,7 @@ use crate::engine::window::free::{FreeMotion, FreeTerms};
 use crate::engine::window::kernels::{Windows, are_for};
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
-use crate::structure::{EXACT, MotionSeries, flight_order};
+use crate::structure::{EXACT, LinearLoad, MotionSeries, flight_order};
 
 /// Allowed truncation error of a kernel, relative to the tolerance of one step.
 const KERNEL_SHARE: f64 = 0.03;
@@ -137,7 +137,7 @@ impl Windows {
             None => {
                 equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
                 let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
-                series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+                series.expand_flight(structure, base.motion(), work.loads(), (longest, order));
                 FreeTerms::Series(series)
             }
         };
@@ -290,12 +290,13 @@ impl Window {
         planned.plan(length, event, length == remaining && event.is_none(), Some(length));
         let free = match terms {
             FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
-            FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
+            FreeTerms::Rows(..) => {
+                FreeMotion::Flight(base, LinearLoad { load: &work.load, slope: &work.slope }, &mut work.interval)
+            }
         };
-        let end = (&mut planned.q[..], &mut planned.v[..]);
         match windows.prepared_pushes.is_empty() {
-            true => self.evaluate(system, free, length, end),
-            false => self.end_by_nodes(system, windows, free, end),
+            true => self.evaluate(system, free, length, planned.motion_mut()),
+            false => self.end_by_nodes(system, windows, free, planned.motion_mut()),
         }
     }
 

@@ -2,7 +2,7 @@
 //! forces at the nodes, with a matrix that is made once.
 
 use crate::collocation::{AtNodes, Map, NodeCount, POWERS, Tables};
-use crate::structure::{ImpulseResponse, LANES, Lane};
+use crate::structure::{ImpulseResponse, LANES, Lane, MotionMut};
 
 /// Matrices of one pair for windows of one length without a map.
 #[derive(Clone, Debug)]
@@ -28,12 +28,7 @@ impl PreparedPush {
 
     /// Subtracts the effect of forces at the nodes of a whole window from a motion; returns whether it is prepared for
     /// that window.
-    pub fn push(
-        &self,
-        (map, rule, length): (Map, NodeCount, f64),
-        force: &AtNodes,
-        motion: (&mut [f64], &mut [f64]),
-    ) -> bool {
+    pub fn push(&self, (map, rule, length): (Map, NodeCount, f64), force: &AtNodes, motion: MotionMut) -> bool {
         let matrix = self.by_rule.iter().find(|matrix| matrix.rule == rule);
         let Some(matrix) = matrix.filter(|_| map == Map::Plain && length == self.length) else { return false };
         push(&matrix.entries, &force[..rule.count()], motion);
@@ -68,7 +63,7 @@ impl NodeMatrix {
 /// See [`PreparedPush::push`]. Returns the sum of all that is subtracted, which goes from block to block: else the
 /// compiler takes four blocks at a time and spends its time sorting them.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn push(entries: &[[Lane; 2]], forces: &[f64], motion: (&mut [f64], &mut [f64])) -> Lane {
+fn push(entries: &[[Lane; 2]], forces: &[f64], motion: MotionMut) -> Lane {
     match forces.len() {
         8 => push_blocks::<8>(entries, forces, motion),
         _ => push_blocks::<12>(entries, forces, motion),
@@ -77,7 +72,7 @@ fn push(entries: &[[Lane; 2]], forces: &[f64], motion: (&mut [f64], &mut [f64]))
 
 /// The same for `N` nodes, whose forces stay in registers.
 #[inline(always)]
-fn push_blocks<const N: usize>(entries: &[[Lane; 2]], forces: &[f64], (q, v): (&mut [f64], &mut [f64])) -> Lane {
+fn push_blocks<const N: usize>(entries: &[[Lane; 2]], forces: &[f64], MotionMut { q, v }: MotionMut) -> Lane {
     let mut sum = [0.0; LANES];
     let blocks = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
     let forces: &[f64; N] = forces.first_chunk().unwrap_or(&[0.0; N]);

@@ -6,6 +6,7 @@ use crate::numerics::time_map::TimeMap;
 use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
 use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
+use crate::structure::motion::{LinearLoad, Motion};
 use std::ops::Range;
 
 /// Most powers of a series.
@@ -87,7 +88,7 @@ impl MotionSeries {
         &mut self,
         structure: &Structure,
         order: usize,
-        loads: (&[f64], &[f64]),
+        loads: LinearLoad,
         forces: &mut impl PairForces,
     ) {
         match self.lanes / LANES {
@@ -103,7 +104,7 @@ impl MotionSeries {
         &mut self,
         structure: &Structure,
         order: usize,
-        (load, slope): (&[f64], &[f64]),
+        LinearLoad { load, slope }: LinearLoad,
         forces: &mut impl PairForces,
     ) {
         let lanes = self.lanes;
@@ -129,24 +130,12 @@ impl MotionSeries {
 
     /// Expands from a started series of all floors to `order`, or goes on with an expanded one, under a load, its slope and
     /// the forces of some pairs.
-    pub fn expand_floors(
-        &mut self,
-        floors: &Floors,
-        order: usize,
-        loads: (&[f64], &[f64]),
-        forces: &mut impl PairForces,
-    ) {
+    pub fn expand_floors(&mut self, floors: &Floors, order: usize, loads: LinearLoad, forces: &mut impl PairForces) {
         expand_floors(self, floors, order, loads, forces);
     }
 
     /// Expands a flight: load and slope only.
-    pub fn expand_flight(
-        &mut self,
-        structure: &Structure,
-        motion: (&[f64], &[f64]),
-        loads: (&[f64], &[f64]),
-        extent: (f64, usize),
-    ) {
+    pub fn expand_flight(&mut self, structure: &Structure, motion: Motion, loads: LinearLoad, extent: (f64, usize)) {
         self.expand_flight_of(0..self.lanes, structure, motion, loads, extent);
     }
 
@@ -155,19 +144,19 @@ impl MotionSeries {
         &mut self,
         modes: Range<usize>,
         structure: &Structure,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
+        motion: Motion,
+        loads: LinearLoad,
         (scale, order): (f64, usize),
     ) {
         if structure.is_classical() {
-            return expand_single_modes(self, (structure, modes), (q, v), (load, slope), (scale, order));
+            return expand_single_modes(self, (structure, modes), motion, loads, (scale, order));
         }
-        self.start(scale, q, v);
+        self.start(scale, motion.q, motion.v);
         while self.order < order.max(2) {
             let n = self.order - 1;
             let load_of_power = |out: &mut [f64]| match n {
-                0 => out.copy_from_slice(load),
-                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
+                0 => out.copy_from_slice(loads.load),
+                1 => out.iter_mut().zip(loads.slope).for_each(|(out, slope)| *out = slope * scale),
                 _ => {}
             };
             self.extend(structure, load_of_power, |_| {});
@@ -181,8 +170,8 @@ impl MotionSeries {
 fn expand_single_modes(
     series: &mut MotionSeries,
     (structure, modes): (&Structure, Range<usize>),
-    (q, v): (&[f64], &[f64]),
-    (load, slope): (&[f64], &[f64]),
+    Motion { q, v }: Motion,
+    LinearLoad { load, slope }: LinearLoad,
     (scale, order): (f64, usize),
 ) {
     series.scale = scale;
@@ -221,7 +210,7 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
     series: &mut MotionSeries,
     structure: &Structure,
     order: usize,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     forces: &mut F,
 ) {
     let [damping, omega2, load, slope] =
@@ -256,7 +245,7 @@ fn expand_floors<F: PairForces>(
     series: &mut MotionSeries,
     floors: &Floors,
     order: usize,
-    (load, slope): (&[f64], &[f64]),
+    LinearLoad { load, slope }: LinearLoad,
     forces: &mut F,
 ) {
     let lanes = series.lanes;
