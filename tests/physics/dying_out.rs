@@ -32,7 +32,7 @@ fn a_motion_that_dies_out_ends_at_rest_and_begins_anew() {
         };
         let problem = TwoMasses { floor_forces: true, ..TwoMasses::new(of(2.0, 0.1), of(3.4, -0.1), 0.0, law) };
         let mut run = Run::new(&scene(&problem.toml()), None);
-        run.in_steps(50.0, 600.0);
+        run.in_steps(0.02, 600.0);
         let impacts = run.point.impacts;
         assert!(impacts > 100, "{law}: {impacts}");
         run.in_steps(50.0, 1000.0);
