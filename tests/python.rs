@@ -13,29 +13,25 @@ use std::process::Command;
 
 #[test]
 fn python() {
-    let cargo_fmu = built(&["--package", "fmu-build", "--bin", "cargo-fmu"]);
-    let simulate = built(&["--example", "simulate"]);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let compiled = fmu_start::compile(root, true, |_| {}).unwrap();
     let mut pytest = Command::new(environment(root, "tests/python"));
     pytest
         .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--numprocesses", "auto", "tests/python"])
         .current_dir(root)
         .env("PYTHONDONTWRITEBYTECODE", "1")
-        .env("CARGO_FMU", cargo_fmu)
-        .env("SIMULATE", simulate);
+        .env("CARGO_FMU", compiled.command().unwrap())
+        .env("SIMULATE", simulate(root));
     require(&mut pytest, "pytest");
 }
 
-/// Builds a program of the workspace as a user does, optimised, and returns where cargo has put it.
+/// The program of the engine alone, as `cargo test` compiles it, and where cargo has put it.
 ///
 /// Cargo itself holds no lock while it runs tests, so the nested call waits for nobody.
-fn built(what: &[&str]) -> PathBuf {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut build = Command::new(cargo);
-    build
-        .args(["build", "--release", "--quiet", "--message-format=json-render-diagnostics"])
-        .args(what)
-        .current_dir(env!("CARGO_MANIFEST_DIR"));
+fn simulate(root: &Path) -> PathBuf {
+    let mut build = Command::new(fmu_start::cargo());
+    build.args(["build", "--workspace", "--example", "simulate", "--quiet"]);
+    build.arg("--message-format=json-render-diagnostics").current_dir(root);
     let messages = require(&mut build, "cargo build");
     let executable =
         |line: &str| Some(line.split_once("\"executable\":\"")?.1.split_once('"')?.0.replace("\\\\", "\\"));

@@ -46,10 +46,9 @@ def compile_library(platform, toolchain, libraries):
     run("cargo", "fetch", "--locked", variables=toolchain.variables, aloud=True)
     run(
         *cargo,
-        *"rustc --locked --release --lib --crate-type cdylib --package pounding-fmu --target".split(),
+        *"build --locked --release --package pounding-library --target".split(),
         triple,
-        *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]),
-        *("--", "--cfg", "fmi_exports"),
+        *flag_arguments(["--cfg", "fmi_exports", *platform.flags, *remapping.flags(toolchain.compiler)]),
         variables=toolchain.variables,
         aloud=True,
     )

@@ -168,6 +168,24 @@ fn extract(from: &mut impl Read, to: &Path) -> io::Result<u64> {
     io::copy(from, &mut File::create(to)?)
 }
 
+/// What is wrong with names of files: expected relative to the archive's root, with forward slashes, inside it.
+pub fn odd_names(names: &[String]) -> Vec<String> {
+    let mut findings = Vec::new();
+    for name in names {
+        let parts: Vec<&str> = name.trim_end_matches('/').split('/').collect();
+        if name.contains('\\') {
+            findings.push(format!("{name:?}: a backslash; expected forward slashes"));
+        }
+        if name.starts_with('/') || name.as_bytes().get(1) == Some(&b':') {
+            findings.push(format!("{name:?}: an absolute path; expected one relative to the archive's root"));
+        }
+        if parts.iter().any(|part| matches!(*part, ".." | ".")) || parts.iter().skip(1).any(|part| part.is_empty()) {
+            findings.push(format!("{name:?}: expected a plain path without empty, `.` or `..` parts"));
+        }
+    }
+    findings
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]

@@ -1,11 +1,12 @@
-//! A description as an importer that is not ours has read it, with one form for both versions.
+//! What a description says, in one form for both versions. `check` has it read by an importer that is not ours
+//! (`importer/description.rs`); the run after building needs little of it, and reads that here.
 
+use crate::sight;
 use anyhow::{Context, Result};
-use fmi::model_description::fmi3::{Causality, Initial};
-use fmi::model_description::{DefaultExperiment, fmi2, fmi3};
 use pounding::FmiVersion;
+use roxmltree::{Document, Node};
 
-/// What the importer has made of a description.
+/// What is read of a description.
 pub struct Description {
     pub version: FmiVersion,
     pub name: String,
@@ -13,7 +14,7 @@ pub struct Description {
     pub identifier: String,
     /// The GUID, or `instantiationToken`.
     pub token: String,
-    pub experiment: Option<DefaultExperiment>,
+    pub experiment: Experiment,
     pub variables: Vec<Variable>,
     pub outputs: Vec<Unknown>,
     pub initial_unknowns: Vec<Unknown>,
@@ -21,6 +22,15 @@ pub struct Description {
     pub needs_memory: bool,
     /// What the importer finds wrong.
     pub problems: Vec<String>,
+}
+
+/// The default experiment, its numbers as texts.
+#[derive(Default)]
+pub struct Experiment {
+    pub start: Option<String>,
+    pub stop: Option<String>,
+    pub step: Option<String>,
+    pub tolerance: Option<String>,
 }
 
 /// A variable, its numbers as texts.
@@ -42,6 +52,26 @@ pub struct Variable {
     pub is_continuous: bool,
 }
 
+/// What a variable is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    Parameter,
+    CalculatedParameter,
+    StructuralParameter,
+    Input,
+    Output,
+    Local,
+    Independent,
+}
+
+/// How the first value of a variable comes about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Initial {
+    Exact,
+    Approx,
+    Calculated,
+}
+
 /// The type of a variable: those that FMUs of ours have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
@@ -58,13 +88,39 @@ pub struct Unknown {
     pub dependencies: Vec<u32>,
 }
 
+pub const NO_INTERFACE: &str = "the FMU has no co-simulation interface";
+
 impl Description {
-    /// Reads it as one of the version that it says it is of.
-    pub fn read(text: &str, version: FmiVersion) -> Result<Description> {
-        match version {
-            FmiVersion::V2 => of_fmi2(fmi2::ModelDescription::from_string(text)?),
-            FmiVersion::V3 => of_fmi3(fmi3::ModelDescription::from_string(text)?),
-        }
+    /// As much of a description of ours as running the FMU takes.
+    pub fn for_a_run(text: &str) -> Result<Description> {
+        let document = Document::parse(text)?;
+        let root = document.root_element();
+        let version = sight::version(text);
+        let token = match version {
+            FmiVersion::V2 => "guid",
+            FmiVersion::V3 => "instantiationToken",
+        };
+        let inside = |name: &'static str| root.children().find(|child| child.has_tag_name(name));
+        let experiment = inside("DefaultExperiment");
+        let number = |name| experiment.and_then(|experiment| experiment.attribute(name)).map(str::to_owned);
+        let variables = inside("ModelVariables").context("the FMU has no variables")?;
+        Ok(Description {
+            version,
+            name: needed(root, "modelName")?,
+            identifier: needed(inside("CoSimulation").context(NO_INTERFACE)?, "modelIdentifier")?,
+            token: needed(root, token)?,
+            experiment: Experiment {
+                start: number("startTime"),
+                stop: number("stopTime"),
+                step: number("stepSize"),
+                tolerance: number("tolerance"),
+            },
+            variables: variables.children().filter(Node::is_element).map(variable).collect::<Result<_>>()?,
+            outputs: Vec::new(),
+            initial_unknowns: Vec::new(),
+            needs_memory: false,
+            problems: Vec::new(),
+        })
     }
 
     /// The variable of a number in the model structure.
@@ -76,112 +132,39 @@ impl Description {
     }
 }
 
-const NO_INTERFACE: &str = "the FMU has no co-simulation interface";
-
-fn of_fmi2(read: fmi2::ModelDescription) -> Result<Description> {
-    let problems = read.validate().into_iter().map(|problem| problem.message).collect();
-    let interface = read.coSimulation.context(NO_INTERFACE)?;
-    let unknowns = |list: Vec<fmi2::Unknown>| list.into_iter().map(|u| unknown(u.index, u.dependencies)).collect();
-    Ok(Description {
-        version: FmiVersion::V2,
-        name: read.modelName,
-        identifier: interface.modelIdentifier,
-        token: read.guid,
-        experiment: read.defaultExperiment,
-        variables: read.modelVariables.into_iter().map(variable_of_fmi2).collect(),
-        outputs: unknowns(read.outputs),
-        initial_unknowns: unknowns(read.initialUnknowns),
-        needs_memory: !interface.canNotUseMemoryManagementFunctions,
-        problems,
-    })
+fn needed(node: Node<'_, '_>, name: &str) -> Result<String> {
+    let text = node.attribute(name).with_context(|| format!("{} has no {name}", node.tag_name().name()))?;
+    Ok(text.to_owned())
 }
 
-fn of_fmi3(read: fmi3::ModelDescription) -> Result<Description> {
-    let problems = read.validate().into_iter().map(|problem| problem.message).collect();
-    let interface = read.coSimulation.context(NO_INTERFACE)?;
-    let unknowns =
-        |list: Vec<fmi3::Unknown>| list.into_iter().map(|u| unknown(u.valueReference, u.dependencies)).collect();
-    Ok(Description {
-        version: FmiVersion::V3,
-        name: read.modelName,
-        identifier: interface.modelIdentifier,
-        token: read.instantiationToken,
-        experiment: read.defaultExperiment,
-        variables: read.modelVariables.into_iter().map(variable_of_fmi3).collect(),
-        outputs: unknowns(read.outputs),
-        initial_unknowns: unknowns(read.initialUnknowns),
-        needs_memory: false,
-        problems,
-    })
-}
-
-fn unknown(number: u32, dependencies: Option<Vec<u32>>) -> Unknown {
-    Unknown { number, dependencies: dependencies.unwrap_or_default() }
-}
-
-fn variable_of_fmi2(read: fmi2::ScalarVariable) -> Variable {
-    use fmi2::VariableType;
-    let start = read.variableType.start().clone();
-    let (kind, min, max, nominal) = match read.variableType {
-        VariableType::Real { min, max, nominal, .. } => (Kind::Real, min, max, nominal),
-        VariableType::Integer { min, max, .. } => (Kind::Integer, min, max, None),
-        VariableType::Enumeration { min, max, .. } => (Kind::Other("Enumeration"), min, max, None),
-        VariableType::Boolean { .. } => (Kind::Boolean, None, None, None),
-        VariableType::String { .. } => (Kind::String, None, None, None),
-    };
-    Variable {
-        is_continuous: read.variability == fmi2::Variability::Continuous,
-        name: read.name,
-        reference: read.valueReference,
-        description: read.description,
-        causality: match read.causality {
-            fmi2::Causality::Parameter => Causality::Parameter,
-            fmi2::Causality::CalculatedParameter => Causality::CalculatedParameter,
-            fmi2::Causality::Input => Causality::Input,
-            fmi2::Causality::Output => Causality::Output,
-            fmi2::Causality::Local => Causality::Local,
-            fmi2::Causality::Independent => Causality::Independent,
+/// In FMI 3.0 the type is the element, in FMI 2.0 one within it.
+fn variable(node: Node<'_, '_>) -> Result<Variable> {
+    let of_type = if node.has_tag_name("ScalarVariable") { node.first_element_child().unwrap_or(node) } else { node };
+    Ok(Variable {
+        name: needed(node, "name")?,
+        reference: needed(node, "valueReference")?.parse()?,
+        description: None,
+        causality: match node.attribute("causality") {
+            Some("parameter") => Causality::Parameter,
+            Some("calculatedParameter") => Causality::CalculatedParameter,
+            Some("structuralParameter") => Causality::StructuralParameter,
+            Some("input") => Causality::Input,
+            Some("output") => Causality::Output,
+            Some("independent") => Causality::Independent,
+            _ => Causality::Local,
         },
-        initial: read.initial.map(|initial| match initial {
-            fmi2::Initial::Exact => Initial::Exact,
-            fmi2::Initial::Approx => Initial::Approx,
-            fmi2::Initial::Calculated => Initial::Calculated,
-        }),
-        kind,
-        min,
-        max,
-        nominal,
-        start,
+        initial: None,
+        kind: match of_type.tag_name().name() {
+            "Real" | "Float64" => Kind::Real,
+            "Integer" | "Int32" => Kind::Integer,
+            "Boolean" => Kind::Boolean,
+            _ => Kind::String,
+        },
+        min: None,
+        max: None,
+        nominal: None,
+        start: None,
         has_updates: false,
-    }
-}
-
-fn variable_of_fmi3(read: fmi3::ModelVariable) -> Variable {
-    use fmi3::VariableType;
-    // A scalar has one.
-    let start = read.variableType.start().filter(|_| read.variableType.has_start()).map(|texts| texts.join(" "));
-    let text = |number: Option<f64>| number.map(|number| number.to_string());
-    let whole = |number: Option<i32>| number.map(|number| number.to_string());
-    let (kind, min, max, nominal) = match &read.variableType {
-        VariableType::Float64 { min, max, nominal, .. } => (Kind::Real, text(*min), text(*max), text(*nominal)),
-        VariableType::Int32 { min, max, .. } => (Kind::Integer, whole(*min), whole(*max), None),
-        VariableType::Boolean { .. } => (Kind::Boolean, None, None, None),
-        VariableType::String { .. } => (Kind::String, None, None, None),
-        other => (Kind::Other(other.name()), None, None, None),
-    };
-    let has_updates = matches!(read.variableType, VariableType::Float64 { intermediateUpdate: true, .. });
-    Variable {
-        is_continuous: read.variability == fmi3::Variability::Continuous,
-        name: read.name,
-        reference: read.valueReference,
-        description: read.description,
-        causality: read.causality,
-        initial: read.initial,
-        kind,
-        min,
-        max,
-        nominal,
-        start,
-        has_updates,
-    }
+        is_continuous: false,
+    })
 }

@@ -1,8 +1,7 @@
 //! One run of an FMU over its default experiment.
 
-use crate::description::{Description, Kind, Variable};
+use crate::description::{Causality, Description, Kind, Variable};
 use anyhow::{Context, Result, bail};
-use fmi::model_description::fmi3::Causality;
 use pounding_simulate::outcome::{Experiment, Outcome, Seen, Variables};
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -32,10 +31,10 @@ pub fn experiment(description: &Description) -> Result<Experiment> {
     let number = |text: Option<&String>, default: f64| {
         text.map_or(Ok(default), |text| text.parse().with_context(|| format!("DefaultExperiment: {text:?}")))
     };
-    let given = description.experiment.as_ref();
-    let start = number(given.and_then(|e| e.startTime.as_ref()), 0.0)?;
-    let stop = number(given.and_then(|e| e.stopTime.as_ref()), start + 10.0)?;
-    let step = number(given.and_then(|e| e.stepSize.as_ref()), 0.01)?;
+    let given = &description.experiment;
+    let start = number(given.start.as_ref(), 0.0)?;
+    let stop = number(given.stop.as_ref(), start + 10.0)?;
+    let step = number(given.step.as_ref(), 0.01)?;
     if !(start < stop && step > 0.0 && stop.is_finite() && step.is_finite()) {
         bail!("DefaultExperiment: cannot run from {start} s to {stop} s in steps of {step} s");
     }

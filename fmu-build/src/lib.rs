@@ -15,8 +15,9 @@
 //! | `inspection.rs` | whether a library is what its folder and name say, without running it |
 //! | `functions.rs` | the names of the library's C functions |
 //! | `c_interface/` | the library's C functions, called by hand, a file for each version (the only unsafe code here) |
-//! | `importer/` | the same through an importer that is not ours |
-//! | `description.rs` | a description as that importer has read it, with one form for both versions |
+//! | `importer/` | the same through an importer that is not ours, and descriptions as it reads them; with the feature `check` alone |
+//! | `sight.rs` | whose a description is, its version, what its libraries are called |
+//! | `description.rs` | what a description says, in one form for both versions |
 //! | `log.rs` | what an FMU says through its logger |
 //! | `steps.rs` | what a step of FMI 3.0 says, and whether that may be |
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
@@ -25,14 +26,17 @@
 //! | `trial/run.rs` | the run after building |
 //! | `bounded.rs` | as many texts of an FMU as a person reads |
 //! | `trial/report.rs` | what a trial has found, for a person and for a program |
-//! | `check/` | the command `check`: what is wrong with an FMU |
+//! | `check/` | the command `check`: what is wrong with an FMU; with the feature `check` alone |
 #![deny(unsafe_code)]
+// The check is half of this crate, and the run after building needs little of what serves both.
+#![cfg_attr(not(feature = "check"), allow(dead_code))]
 
 mod archive;
 pub mod arguments;
 mod bounded;
 #[allow(unsafe_code)]
 mod c_interface;
+#[cfg(feature = "check")]
 mod check;
 pub mod command;
 mod description;
@@ -40,14 +44,15 @@ pub mod destination;
 mod experiment;
 pub mod face;
 mod functions;
+#[cfg(feature = "check")]
 mod importer;
 mod inspection;
 pub mod libraries;
 mod log;
 mod merge;
-mod progress;
 mod provenance;
 mod recipe;
+mod sight;
 mod steps;
 mod trial;
 

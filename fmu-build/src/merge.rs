@@ -1,10 +1,10 @@
 //! `cargo fmu merge`: one FMU with the libraries of two that are the same otherwise.
 
-use crate::archive;
+use crate::archive::{self, odd_names};
 use crate::bounded::Bounded;
-use crate::check;
 use crate::destination::Destination;
 use crate::inspection;
+use crate::sight::{model_identifier, origin, version};
 use anyhow::{Context, Result, bail};
 use pounding::FmiVersion;
 use pounding_pack::archive::{Entry, pack};
@@ -66,10 +66,10 @@ impl Source {
         let entries = archive::entries(fmu).with_context(|| name.clone())?;
         let names: Vec<String> = entries.iter().map(|entry| entry.path.clone()).collect();
         let (libraries, common): (Vec<Entry>, Vec<Entry>) = entries.into_iter().partition(is_library);
-        let mut problems = check::file_names(&names);
+        let mut problems = odd_names(&names);
         let description = common.iter().find(|entry| entry.path == DESCRIPTION);
         let description = description.map(|entry| String::from_utf8_lossy(&entry.bytes));
-        let version = description.as_ref().map_or_else(FmiVersion::default, |text| check::version(text));
+        let version = description.as_ref().map_or_else(FmiVersion::default, |text| version(text));
         match &description {
             Some(description) => problems.extend(wrong_libraries(description, &libraries)),
             None => problems.push(format!("this is not an FMU: it has no {DESCRIPTION} at its root")),
@@ -96,15 +96,15 @@ impl Source {
 
 /// What is wrong with the libraries beside a description, which ought to be that of an FMU of ours.
 fn wrong_libraries(description: &str, libraries: &[Entry]) -> Vec<String> {
-    if let Err(error) = check::origin(description) {
+    if let Err(error) = origin(description) {
         return vec![format!("{error:#}")];
     }
-    let Some(identifier) = check::model_identifier(description) else {
+    let Some(identifier) = model_identifier(description) else {
         return vec![format!("{DESCRIPTION} has no co-simulation interface with a modelIdentifier")];
     };
     // It has company in the merged FMU.
     let inspect = |library: &Entry| {
-        inspection::inspect(&library.path, &library.bytes, &identifier, check::version(description), false)
+        inspection::inspect(&library.path, &library.bytes, &identifier, version(description), false)
     };
     let findings = libraries.iter().map(inspect);
     findings.flat_map(|findings| [findings.library, findings.functions].concat()).collect()

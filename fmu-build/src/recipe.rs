@@ -4,10 +4,10 @@ use crate::arguments::BuildArguments;
 use crate::destination::Destination;
 use crate::face::{Face, Home};
 use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
-use crate::progress::Progress;
 use crate::provenance::Provenance;
 use crate::trial::Trial;
 use anyhow::{Context, Result, bail};
+use fmu_start::Line;
 use pounding::FmiVersion;
 use pounding::description::{Category, Package};
 use pounding_pack::{file_name, pack};
@@ -28,12 +28,12 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
              and FMPy looks there"
         );
     }
-    let progress = Progress::start();
-    progress.step("reading the scene");
+    let line = Line::start();
+    line.work("reading the scene");
     let home = face.home()?;
     let scene_file = arguments.scene.as_ref().unwrap_or(&home.default_scene);
     let package = read(scene_file)?;
-    progress.say(&warnings_of(&package));
+    warnings_of(&package).iter().for_each(|warning| line.say(warning));
     let default_output = home.fmus.join(file_name(&package, version));
     let output = arguments.output.as_ref().unwrap_or(&default_output);
     written::check(&written::sources(scene_file, &package.scene, None), &[("-o", Some(output))])
@@ -47,11 +47,11 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
             .context("the FMU cannot go to its usual place, -o FILE.fmu names another")?,
     };
 
-    let libraries = libraries(home, arguments, &progress)?;
-    progress.step("packing the FMU");
+    let libraries = libraries(home, arguments, &line)?;
+    line.work("packing the FMU");
     let draft = destination.draft(&pack(&package, &libraries, version)?)?;
 
-    progress.step("running the FMU");
+    line.work("running the FMU");
     let outcome = match libraries.iter().any(Library::is_for_this_machine) {
         false => None,
         true => {
@@ -62,7 +62,7 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     };
     destination.take(draft)?;
 
-    drop(progress);
+    drop(line);
     if let Some(warning) = provenance.and_then(|provenance| provenance.note()) {
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
@@ -70,14 +70,14 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
 }
 
 /// The libraries that the arguments ask for.
-fn libraries(home: Home, arguments: &BuildArguments, progress: &Progress) -> Result<Vec<Library>> {
+fn libraries(home: Home, arguments: &BuildArguments, line: &Line) -> Result<Vec<Library>> {
     let source = match &arguments.libraries {
         Some(folder) => Box::new(Shipped(folder.clone())),
         None => home.libraries,
     };
-    progress.step(source.work());
+    line.work(source.work());
     let mut libraries =
-        source.get(arguments.fmi, &arguments.platforms, &mut |state| progress.state(source.work(), state))?;
+        source.get(arguments.fmi, &arguments.platforms, &mut |state| line.state(state))?;
     if arguments.arm_in_linux64 {
         move_arm_for_fmpy(&mut libraries)?;
     }

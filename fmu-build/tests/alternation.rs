@@ -20,29 +20,17 @@ fn cargo(arguments: &[&str]) -> String {
 /// Everything that cargo has compiled for these commands, and when.
 fn compiled() -> BTreeMap<PathBuf, SystemTime> {
     let executable = Path::new(env!("CARGO_BIN_EXE_cargo-fmu"));
-    let target = executable.ancestors().find(|above| above.join("release").is_dir()).expect("a target directory");
-    let mut files = BTreeMap::new();
-    // `release` itself, and those of named machines.
-    let releases = std::fs::read_dir(target).unwrap().map(|entry| entry.unwrap().path().join("release"));
-    let mut folders: Vec<PathBuf> = releases.filter(|folder| folder.is_dir()).collect();
-    folders.push(target.join("release"));
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap()) {
-            let path = entry.path();
-            // Beside them is what each file was made of, which cargo writes anew each time.
-            let is_compiled = folder.ends_with("deps") || folder.ends_with("examples");
-            if path.is_dir() {
-                folders.push(path);
-            } else if is_compiled && path.extension().is_none_or(|extension| extension != "d") {
-                files.insert(path, entry.metadata().unwrap().modified().unwrap());
-            }
-        }
-    }
-    files
+    let target = executable.ancestors().find(|above| above.join("quick").is_dir()).expect("a target directory");
+    let files = std::fs::read_dir(target.join("quick/deps")).unwrap().map(|entry| entry.unwrap());
+    // Beside them is what each file was made of, which cargo writes anew each time.
+    let files = files.filter(|file| file.path().extension().is_none_or(|extension| extension != "d"));
+    files.map(|file| (file.path(), file.metadata().unwrap().modified().unwrap())).collect()
 }
 
+/// `check` is compiled with what building does without, and shares the engine with it. What `simulate` and the benchmarks
+/// compile lies in another directory, `release`.
 #[test]
-fn ten_turns_of_building_and_simulating_compile_nothing() {
+fn turns_of_building_and_checking_compile_nothing() {
     let directory = TempDir::new().unwrap();
     let path = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
     let (scene, fmu) = (path("scene.toml"), path("turns.fmu"));
@@ -52,13 +40,14 @@ fn ten_turns_of_building_and_simulating_compile_nothing() {
     std::fs::write(&scene, example.replace("../records/", &format!("{examples}/records/"))).unwrap();
     let turn = || {
         assert_eq!(cargo(&["fmu", &scene, "-o", &fmu]), "", "in a pipe not even the first one says anything");
-        cargo(&["run", "--release", "--example", "simulate", "--", &scene]);
+        assert_eq!(cargo(&["fmu", "check", &fmu]), "");
     };
     turn();
     let before = compiled();
     let count = |part: &str| before.keys().filter(|path| path.to_string_lossy().contains(part)).count();
-    assert!(count("pounding") > 2 && count("cargo_fmu") > 0 && count("simulate") > 0, "{:#?}", before.keys());
-    (0..10).for_each(|_| turn());
+    // An rlib and what says how to use it; a library; a command with and without `check`.
+    assert_eq!((count("libpounding-"), count("cargo_fmu-")), (3, 2), "{:#?}", before.keys());
+    (0..4).for_each(|_| turn());
     let after = compiled();
     let new: Vec<_> = after.iter().filter(|(path, time)| before.get(*path) != Some(time)).collect();
     assert!(new.is_empty(), "{new:#?}");

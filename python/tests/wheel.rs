@@ -30,10 +30,10 @@ fn wheel() {
 /// The FMUs of the scenes that travel in the wheel, as `cargo fmu` makes them.
 fn reference_fmus() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reference-fmus");
+    let compiled = fmu_start::compile(root(), true, |_| {}).unwrap();
     for scene in std::fs::read_dir(root().join("examples/scenes")).unwrap().map(|entry| entry.unwrap().path()) {
         let fmu = folder.join(scene.file_name().unwrap()).with_extension("fmu");
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        require(Command::new(cargo).current_dir(root()).arg("fmu").arg(&scene).arg("-o").arg(fmu), "cargo fmu");
+        require(Command::new(compiled.command().unwrap()).arg(&scene).arg("-o").arg(fmu), "cargo fmu");
     }
     folder
 }

@@ -9,12 +9,10 @@ use fmi::model_description::fmi2::ModelDescription;
 use libloading::Library;
 use pounding::description::Package;
 pub use scenes::{LINKED, NO_CONTACT, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING, record};
-use serde_json::Value;
 pub use state::State;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::ptr;
 use std::sync::OnceLock;
 use tempfile::TempDir;
@@ -26,27 +24,15 @@ pub const ERROR: c_int = 3;
 /// Tells a process that a test starts where the library is.
 pub const LIBRARY: &str = "POUNDING_LIBRARY";
 
-/// The shared library of the crate, compiled as these tests are: cargo makes it of the same sources on demand.
+/// The shared library in the FMUs of `cargo fmu`.
 pub fn library_path() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
     PATH.get_or_init(|| std::env::var_os(LIBRARY).map_or_else(compiled_library, PathBuf::from))
 }
 
 fn compiled_library() -> PathBuf {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
-        .args(["rustc", "--lib", "--crate-type", "cdylib", "--quiet", "--message-format=json-render-diagnostics"])
-        .args(["--profile", if cfg!(debug_assertions) { "dev" } else { "release" }, "--", "--cfg", "fmi_exports"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let messages = output.stdout.split(|byte| *byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok());
-    let files = messages.flat_map(|message: Value| message["filenames"].as_array().cloned().unwrap_or_default());
-    let is_library = |path: &PathBuf| path.extension().is_some_and(|e| e == std::env::consts::DLL_EXTENSION);
-    let mut libraries = files.filter_map(|file| file.as_str().map(PathBuf::from)).filter(is_library);
-    // Those before it are macros of the compiler.
-    libraries.next_back().expect("cargo says where the library is")
+    let compiled = fmu_start::compile(Path::new(env!("CARGO_MANIFEST_DIR")), true, |_| {}).unwrap();
+    compiled.library().unwrap().to_path_buf()
 }
 
 /// An unpacked FMU.

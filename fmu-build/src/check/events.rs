@@ -1,10 +1,9 @@
 //! What the library does for a master of FMI 3.0 that takes early return and Event Mode: the same, seen more closely.
 
-use crate::description::{Description, Variable};
+use crate::description::{Causality, Description, Variable};
 use crate::experiment::{CoSimulation, Groups};
 use crate::importer::v3::{Imported, State};
 use anyhow::{Context, Result, bail};
-use fmi::model_description::fmi3::Causality;
 use pounding_simulate::outcome::Outcome;
 use std::path::Path;
 

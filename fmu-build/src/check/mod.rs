@@ -10,14 +10,14 @@ mod events;
 mod lint;
 mod scene;
 
-use crate::archive::Unpacked;
+use crate::archive::{Unpacked, odd_names};
 use crate::description::Description;
 use crate::experiment;
 use crate::importer;
 use crate::inspection;
+use crate::sight::{origin, version};
 use crate::trial::channel::Channel;
 use anyhow::{Context, Result};
-pub use lint::{file_names, model_identifier, origin, version};
 use pounding::FmiVersion;
 use pounding_pack::platform::{self, Platform};
 use std::path::Path;
@@ -41,14 +41,14 @@ pub const CHECKS: [&str; 11] = [
 pub fn inspect(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     let Some(fmu) = channel.need("archive", || Unpacked::open(fmu, directory))? else { return Ok(()) };
     let Some(text) = channel.need("description", || fmu.description())? else { return Ok(()) };
-    if channel.need("origin", || lint::origin(&text))?.is_none() {
+    if channel.need("origin", || origin(&text))?.is_none() {
         return Ok(());
     }
-    channel.look("file names", || lint::file_names(&fmu.names))?;
+    channel.look("file names", || odd_names(&fmu.names))?;
     channel.look("description lint", || lint::document(&text))?;
     channel.look("scene", || scene::differences(&fmu, &text))?;
 
-    let Some(description) = channel.need("description", || Description::read(&text, version(&text)))? else {
+    let Some(description) = channel.need("description", || importer::read(&text, version(&text)))? else {
         return Ok(());
     };
     channel.look("description", || description.problems.clone())?;
@@ -64,7 +64,7 @@ fn libraries(fmu: &Unpacked, description: &Description, channel: &Channel) -> Re
     let (identifier, version) = (description.identifier.as_str(), description.version);
     let here = platform::host_library(&fmu.names, identifier, version);
     // Others than plain names have not been unpacked, and have been found already.
-    let is_plain = |name: &str| lint::file_names(&[name.to_owned()]).is_empty() && !name.ends_with('/');
+    let is_plain = |name: &str| odd_names(&[name.to_owned()]).is_empty() && !name.ends_with('/');
     let there = fmu.names.iter().filter(|name| name.starts_with("binaries/") && is_plain(name));
     let mut is_here_in_order = None;
     for name in there.clone() {

@@ -1,6 +1,6 @@
 //! The description of an FMU beside that of the scene inside it, which is written anew: any difference is a finding.
 
-use super::lint::version;
+use crate::sight::version;
 use crate::archive::Unpacked;
 use pounding::description::{Package, TOOL, guid_of};
 use roxmltree::{Attribute, Document, Node};

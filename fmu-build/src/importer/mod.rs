@@ -1,11 +1,13 @@
 //! FMUs through fmi-rs, an importer that shares no code with the exporter, a file for each version.
 
+mod description;
 mod v2;
 pub mod v3;
 
 use crate::description::Description;
 use crate::experiment::CoSimulation;
 use anyhow::Result;
+pub use description::read;
 use pounding::FmiVersion;
 use std::path::Path;
 

@@ -8,6 +8,7 @@ mod report;
 mod run;
 
 use crate::bounded::Bounded;
+#[cfg(feature = "check")]
 use crate::check;
 use crate::face::Face;
 use anyhow::{Context, Result, bail};
@@ -32,6 +33,7 @@ const SHOWN: u64 = 500;
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Trial {
     /// `cargo fmu check`.
+    #[cfg(feature = "check")]
     Check,
     /// The run after building.
     Run,
@@ -101,6 +103,7 @@ impl Trial {
     /// What is tried where nothing is found.
     fn checks(self) -> &'static [&'static str] {
         match self {
+            #[cfg(feature = "check")]
             Trial::Check => &check::CHECKS,
             Trial::Run => &["run"],
         }
@@ -112,6 +115,7 @@ impl Trial {
         let channel = Channel::open(&mut input)?;
         std::thread::spawn(move || end_with_parent(input));
         match self {
+            #[cfg(feature = "check")]
             Trial::Check => check::inspect(fmu, directory, &channel)?,
             Trial::Run => run::try_out(fmu, directory, &channel)?,
         }

@@ -3,7 +3,6 @@
 use super::channel::Channel;
 use crate::archive::Unpacked;
 use crate::c_interface::{self, Binary};
-use crate::check;
 use crate::description::Description;
 use crate::experiment;
 use anyhow::{Context, Result};
@@ -15,7 +14,7 @@ pub fn try_out(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     let run = || {
         let unpacked = Unpacked::open(fmu, directory)?;
         let text = unpacked.description()?;
-        let description = Description::read(&text, check::version(&text))?;
+        let description = Description::for_a_run(&text)?;
         let library = platform::host_library(&unpacked.names, &description.identifier, description.version);
         let binary = Binary::load(&unpacked.path(library.context("the FMU has no library for this machine")?))?;
         let instance = c_interface::instantiate(&binary, &description, &description.token, unpacked.root())?;

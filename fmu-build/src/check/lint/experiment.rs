@@ -3,7 +3,7 @@
 use crate::description::Description;
 
 pub(super) fn findings(description: &Description) -> Vec<String> {
-    let Some(experiment) = &description.experiment else { return Vec::new() };
+    let experiment = &description.experiment;
     let mut findings = Vec::new();
     let mut number = |name: &str, text: &Option<String>, default: Option<f64>| {
         let Some(text) = text else { return default };
@@ -15,9 +15,9 @@ pub(super) fn findings(description: &Description) -> Vec<String> {
             }
         }
     };
-    let start = number("startTime", &experiment.startTime, Some(0.0));
-    let stop = number("stopTime", &experiment.stopTime, None);
-    let step = number("stepSize", &experiment.stepSize, None);
+    let start = number("startTime", &experiment.start, Some(0.0));
+    let stop = number("stopTime", &experiment.stop, None);
+    let step = number("stepSize", &experiment.step, None);
     let tolerance = number("tolerance", &experiment.tolerance, None);
     if let (Some(start), Some(stop)) = (start, stop) {
         if start >= stop {

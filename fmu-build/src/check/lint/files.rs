@@ -16,24 +16,6 @@ const FILES: [&str; 10] = [
     "documentation/licenses/LICENSE-MIT",
 ];
 
-/// Relative to the archive's root, with forward slashes, inside it.
-pub fn file_names(names: &[String]) -> Vec<String> {
-    let mut findings = Vec::new();
-    for name in names {
-        let parts: Vec<&str> = name.trim_end_matches('/').split('/').collect();
-        if name.contains('\\') {
-            findings.push(format!("{name:?}: a backslash; expected forward slashes"));
-        }
-        if name.starts_with('/') || name.as_bytes().get(1) == Some(&b':') {
-            findings.push(format!("{name:?}: an absolute path; expected one relative to the archive's root"));
-        }
-        if parts.iter().any(|part| matches!(*part, ".." | ".")) || parts.iter().skip(1).any(|part| part.is_empty()) {
-            findings.push(format!("{name:?}: expected a plain path without empty, `.` or `..` parts"));
-        }
-    }
-    findings
-}
-
 /// No file that is not an FMU's of ours, and each library under the name that importers look for.
 pub fn files(names: &[String], description: &Description) -> Vec<String> {
     let identifier = description.identifier.as_str();

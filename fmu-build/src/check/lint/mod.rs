@@ -11,8 +11,8 @@ mod units;
 mod variables;
 
 use crate::description::Description;
-pub use document::{findings as document, model_identifier, origin, version};
-pub use files::{file_names, files};
+pub use document::findings as document;
+pub use files::files;
 
 /// `modelDescription.xml` as the importer has read it; what it does not read is looked at by [`document()`].
 pub fn description(description: &Description) -> Vec<String> {

@@ -1,7 +1,6 @@
 //! Outputs and initial unknowns: in order, and made of what can be known.
 
-use crate::description::{Description, Unknown};
-use fmi::model_description::fmi3::Causality;
+use crate::description::{Causality, Description, Unknown};
 use pounding::FmiVersion;
 
 pub(super) fn findings(description: &Description) -> Vec<String> {

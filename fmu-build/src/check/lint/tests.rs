@@ -4,6 +4,8 @@
 mod scenes;
 
 use crate::description::Description;
+use crate::importer;
+use crate::sight::{origin, version};
 use pounding::FmiVersion;
 use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::fs;
@@ -27,7 +29,7 @@ fn findings(text: &str) -> Vec<String> {
 fn read(text: &str) -> anyhow::Result<Description> {
     static TURN: Mutex<()> = Mutex::new(());
     let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    Description::read(text, super::version(text))
+    importer::read(text, version(text))
 }
 
 #[test]
@@ -208,10 +210,10 @@ fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
 #[test]
 fn only_our_fmus_are_ours() {
     let text = package(SCENE).model_description(FmiVersion::V2);
-    assert!(super::origin(&text).is_ok());
-    let made_by = |tool: &str| super::origin(&text.replace(concat!("pounding-fmu ", env!("CARGO_PKG_VERSION")), tool));
+    assert!(origin(&text).is_ok());
+    let made_by = |tool: &str| origin(&text.replace(concat!("pounding-fmu ", env!("CARGO_PKG_VERSION")), tool));
     assert!(made_by("pounding-fmu 99.0.0").is_ok());
     assert!(made_by("Other 1.0").unwrap_err().to_string().contains("made by \"Other 1.0\""));
     let silent = text.replace("generationTool", "author");
-    assert!(super::origin(&silent).unwrap_err().to_string().contains("does not say which tool made it"));
+    assert!(origin(&silent).unwrap_err().to_string().contains("does not say which tool made it"));
 }

@@ -1,7 +1,6 @@
 //! The attributes of each variable.
 
-use crate::description::{Description, Kind, Variable};
-use fmi::model_description::fmi3::{Causality, Initial};
+use crate::description::{Causality, Description, Initial, Kind, Variable};
 use pounding::FmiVersion;
 use std::collections::HashMap;
 
