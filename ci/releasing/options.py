@@ -2,6 +2,8 @@
 
 import argparse
 
+from releasing.platforms import CROSS
+
 
 def parse():
     parser = argparse.ArgumentParser(prog="ci/release", description="Builds everything that is published.")
@@ -14,8 +16,10 @@ def parse():
     )
     parser.add_argument(
         "--here",
-        action="store_true",
-        help="a rehearsal of a few minutes, for this machine's platform and those that can be compiled and run here: "
+        nargs="*",
+        choices=[platform.name for platform in CROSS],
+        metavar="PLATFORM",
+        help="a rehearsal of a few minutes, for these platforms, or for all that can be compiled and run here: "
         "every step and gate, the module of the wheel compiled quickly, nothing put into target/release-files",
     )
     parser.add_argument(

@@ -42,9 +42,12 @@ def main():
 def release(arguments):
     """Makes all files, checks them and puts them into their place; returns what each of them needs.
 
-    A rehearsal (`--here`) does the same for the platforms that this machine compiles and runs, and publishes nothing.
+    A rehearsal (`--here`) does the same for some platforms, or those that this machine compiles and runs, and publishes
+    nothing.
     """
-    platforms = tuple(filter(is_here, CROSS)) if arguments.here else CROSS
+    is_rehearsal = arguments.here is not None
+    wanted = [platform for platform in CROSS if not arguments.here or platform.name in arguments.here]
+    platforms = tuple(filter(is_here, wanted)) if is_rehearsal else CROSS
     WORK.mkdir(parents=True, exist_ok=True)
     progress.step("testing the gates themselves")
     test_gates()
@@ -55,16 +58,16 @@ def release(arguments):
         progress.step(f"compiling the library for {platform.name}")
         compile_library(platform, toolchain, LIBRARIES)
     stop_at(check_libraries(platforms))
-    check_behaviour(platforms, toolchain, arguments.here)
+    check_behaviour(platforms, toolchain, is_rehearsal)
     progress.step("the page")
     make_page(toolchain)
     progress.step("the wheel")
-    make_wheel({f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICKLY.items()} if arguments.here else {})
+    make_wheel({f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICKLY.items()} if is_rehearsal else {})
     progress.step("the FMUs of the examples")
     make_fmus()
     stop_at(check_archives() + check_wheel())
     lines = needs.write(DRAFT)
-    if arguments.here:
+    if is_rehearsal:
         return [*lines, "a release can be made of " + ", ".join(platform.name for platform in platforms)]
     shutil.rmtree(FILES, ignore_errors=True)
     DRAFT.rename(FILES)
