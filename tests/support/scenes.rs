@@ -2,7 +2,7 @@
 #![allow(dead_code, unused_imports, clippy::unwrap_used)] // each test uses its share
 
 #[path = "../problems/two_and_three_storeys.rs"]
-mod two_and_three_storeys;
+pub mod two_and_three_storeys;
 
 use pounding::scene::{Package, PackagedRecord, Scene};
 pub use two_and_three_storeys::{RECORD_SCENE, RICH, SCENE};
