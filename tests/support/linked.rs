@@ -134,21 +134,15 @@ pub const COMMON_3: Common = Common {
     // SAFETY: as above.
     log: |c, on, categories| unsafe { fmi3SetDebugLogging(c, on.into(), categories.len(), categories.as_ptr()) },
     // SAFETY: as above.
-    get_reals: |c, vr, values| unsafe {
-        fmi3GetFloat64(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len())
-    },
+    get_reals: |c, vr, values| unsafe { fmi3GetFloat64(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len()) },
     // SAFETY: as above.
-    get_integers: |c, vr, values| unsafe {
-        fmi3GetInt32(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len())
-    },
+    get_integers: |c, vr, values| unsafe { fmi3GetInt32(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len()) },
     // SAFETY: as above.
     get_booleans: |c, vr, values| unsafe {
         fmi3GetBoolean(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len())
     },
     // SAFETY: as above.
-    get_strings: |c, vr, values| unsafe {
-        fmi3GetString(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len())
-    },
+    get_strings: |c, vr, values| unsafe { fmi3GetString(c, vr.as_ptr(), vr.len(), values.as_mut_ptr(), values.len()) },
     // SAFETY: as above.
     set_reals: |c, vr, values| unsafe { fmi3SetFloat64(c, vr.as_ptr(), vr.len(), values.as_ptr(), values.len()) },
     // SAFETY: as above.

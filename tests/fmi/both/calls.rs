@@ -104,9 +104,7 @@ fn call_2(instance: &Instance<'_>, function: &str, mut state: State, bytes: &[u8
             "fmi2SerializedFMUstateSize" => fmi2SerializedFMUstateSize(c, state, &raw mut size),
             "fmi2SerializeFMUstate" => fmi2SerializeFMUstate(c, state, bytes.to_vec().as_mut_ptr(), n),
             "fmi2DeSerializeFMUstate" => fmi2DeSerializeFMUstate(c, bytes.as_ptr(), n, &raw mut state),
-            "fmi2GetDirectionalDerivative" => {
-                fmi2GetDirectionalDerivative(c, null(), 0, null(), 0, null(), null_mut())
-            }
+            "fmi2GetDirectionalDerivative" => fmi2GetDirectionalDerivative(c, null(), 0, null(), 0, null(), null_mut()),
             "fmi2SetRealInputDerivatives" => fmi2SetRealInputDerivatives(c, null(), 0, null(), null()),
             "fmi2GetRealOutputDerivatives" => fmi2GetRealOutputDerivatives(c, null(), 0, null(), null_mut()),
             "fmi2DoStep" => fmi2DoStep(c, 0.0, 0.01, 1),

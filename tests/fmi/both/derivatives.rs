@@ -31,7 +31,8 @@ fn derivatives_that_are_other_outputs() {
                 assert_eq!(instance.rate(&of("impulse"), 1), Ok(force));
                 assert_eq!(instance.rate(&of("impulse"), 2), instance.rate(&of("force"), 1));
                 let closing = instance.rate(&of("penetration"), 1).unwrap();
-                let facing = instance.real(&format!("left.velocity[{p}]")) - instance.real(&format!("right.velocity[{p}]"));
+                let facing =
+                    instance.real(&format!("left.velocity[{p}]")) - instance.real(&format!("right.velocity[{p}]"));
                 assert!((closing - facing).abs() < 1e-12, "{closing} and {facing}");
                 assert_eq!(instance.rate(&of("dissipated_energy"), 1), Ok(force * closing));
                 assert_eq!(instance.rate(&of("approach_velocity"), 1), Ok(0.0));

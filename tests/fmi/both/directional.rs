@@ -132,7 +132,8 @@ fn seeds_add_up() {
         let instance = fmu.instance();
         instance.start();
         let vr = |names: &[&str]| names.iter().map(|name| fmu.vr(name)).collect::<Vec<_>>();
-        let unknowns = vr(&["right.acceleration[3]", "left.acceleration[1]", "left.velocity[1]", "right.acceleration[3]"]);
+        let unknowns =
+            vr(&["right.acceleration[3]", "left.acceleration[1]", "left.velocity[1]", "right.acceleration[3]"]);
         let knowns = vr(&["right.force[3]", "left.force[1]", "ground.acceleration", "right.force[3]"]);
         let found = instance.directional(&unknowns, &knowns, &[7.3, -3.65, 100.0, 3.65]).unwrap();
         let expected = [3.0, -1.0, 0.0, 3.0];
@@ -146,7 +147,8 @@ fn initial_unknowns_follow_parameters() {
     for fmu in Fmu::both(SCENE) {
         let instance = fmu.instance();
         instance.enter();
-        let derivative = |unknown: &str, known: &str| instance.directional(&[fmu.vr(unknown)], &[fmu.vr(known)], &[1.0]);
+        let derivative =
+            |unknown: &str, known: &str| instance.directional(&[fmu.vr(unknown)], &[fmu.vr(known)], &[1.0]);
         for side in ["left", "right"] {
             for mode in 1..=2 {
                 for parameter in ["left.mass[1]", "left.mass[2]", "left.stiffness[1]", "left.stiffness[2]"] {
@@ -183,13 +185,37 @@ fn unknowns_and_knowns_that_are_none() {
         unasked.start();
         let reference = unasked.run(0.0, 0.1, 8);
         for (in_initialization, unknown, known, seed, expected) in [
-            (false, "left.force[1]", "left.force[1]", 1.0, fmu.either("unknown left.force[1]: expected an output of type Real", "unknown left.force[1]: expected an output of type Float64")),
-            (false, "impacts", "left.force[1]", 1.0, fmu.either("unknown impacts: expected an output of type Real", "unknown impacts: expected an output of type Float64")),
+            (
+                false,
+                "left.force[1]",
+                "left.force[1]",
+                1.0,
+                fmu.either(
+                    "unknown left.force[1]: expected an output of type Real",
+                    "unknown left.force[1]: expected an output of type Float64",
+                ),
+            ),
+            (
+                false,
+                "impacts",
+                "left.force[1]",
+                1.0,
+                fmu.either(
+                    "unknown impacts: expected an output of type Real",
+                    "unknown impacts: expected an output of type Float64",
+                ),
+            ),
             (false, "left.frequency[1]", "left.force[1]", 1.0, "unknown left.frequency[1]"),
             (false, "left.velocity[1]", "left.mass[1]", 1.0, "known left.mass[1]: expected an input"),
             (false, "left.velocity[1]", "left.velocity[1]", 1.0, "known left.velocity[1]: expected an input"),
             (false, "left.velocity[1]", "left.force[1]", f64::NAN, "left.force[1]: seed NaN: expected a finite number"),
-            (true, "left.velocity[1]", "left.velocity[1]", 1.0, "known left.velocity[1]: expected an input or a parameter"),
+            (
+                true,
+                "left.velocity[1]",
+                "left.velocity[1]",
+                1.0,
+                "known left.velocity[1]: expected an input or a parameter",
+            ),
             (
                 true,
                 "left.mass[1]",
@@ -197,7 +223,13 @@ fn unknowns_and_knowns_that_are_none() {
                 1.0,
                 "unknown left.mass[1]: expected an output or a calculated parameter",
             ),
-            (true, "left.base_shear", "left.stiffness[1]", 1.0, "left.base_shear with respect to left.stiffness[1]: no"),
+            (
+                true,
+                "left.base_shear",
+                "left.stiffness[1]",
+                1.0,
+                "left.base_shear with respect to left.stiffness[1]: no",
+            ),
         ] {
             let instance = fmu.instance();
             instance.enter();

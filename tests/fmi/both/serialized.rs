@@ -1,7 +1,7 @@
 //! Serialized states that are not what was written: each is refused, with what is wrong.
 
-use crate::v2::rollback::scene;
 use crate::support::*;
+use crate::v2::rollback::scene;
 
 /// A state in mid-contact and one without any contact, as bytes.
 fn small_states() -> Vec<(Fmu, Vec<u8>)> {

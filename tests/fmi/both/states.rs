@@ -55,7 +55,10 @@ fn assert_unknown(instance: &Instance<'_>, mut state: State, what: &str) {
     }
     let (log, name) = (instance.log(), instance.fmu.either("FMUstate", "FMUState"));
     assert_eq!(log.len(), 6, "{what}: {log:?}");
-    assert!(log.iter().all(|line| line.message.contains(&format!("{name} = {before:?}: expected one"))), "{what}: {log:?}");
+    assert!(
+        log.iter().all(|line| line.message.contains(&format!("{name} = {before:?}: expected one"))),
+        "{what}: {log:?}"
+    );
 }
 
 #[test]

@@ -125,7 +125,12 @@ fn assert_same_run(scene: &str, parameters: &[(&str, f64)], replacements: &[(&st
     }
 }
 
-fn assert_same_instance(set: &Instance<'_>, expected: &Instance<'_>, parameters: &[(&str, f64)], in_initialization: bool) {
+fn assert_same_instance(
+    set: &Instance<'_>,
+    expected: &Instance<'_>,
+    parameters: &[(&str, f64)],
+    in_initialization: bool,
+) {
     let apply = |instance: &Instance<'_>| {
         for (name, value) in parameters {
             assert_eq!(instance.set_real(name, *value), OK, "{name}: {:?}", instance.log());
@@ -307,7 +312,8 @@ fn wrong_types_and_unknown_references_are_all_named() {
         assert_eq!(instance.reals(&references), Err(ERROR));
         let log = instance.log();
         let messages = log.iter().map(|line| line.message.as_str()).collect::<Vec<_>>();
-        let (name, real, integer) = fmu.either(("fmi2GetReal", "Real", "Integer"), ("fmi3GetFloat64", "Float64", "Int32"));
+        let (name, real, integer) =
+            fmu.either(("fmi2GetReal", "Real", "Integer"), ("fmi3GetFloat64", "Float64", "Int32"));
         assert_eq!(messages.len(), 4, "{messages:?}");
         let among = |expected: &str| messages.iter().any(|message| message.contains(expected));
         assert_eq!(messages[0], format!("{name}: value reference {end}: expected one below {end}"));
@@ -331,8 +337,7 @@ fn each_type_has_its_function() {
                 instance.strings(&vr).is_ok_and(|texts| !texts[0].is_null()),
             ];
             let is = |ty: Type| row.ty == ty;
-            let expected =
-                [matches!(row.ty, Type::Real(_)), is(Type::Integer), is(Type::Boolean), is(Type::String)];
+            let expected = [matches!(row.ty, Type::Real(_)), is(Type::Integer), is(Type::Boolean), is(Type::String)];
             assert_eq!(found, expected, "{}", row.name);
             assert_eq!(instance.log().len(), 3, "{}: one message for each wrong type", row.name);
         }

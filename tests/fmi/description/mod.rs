@@ -3,10 +3,10 @@
 mod fmi3;
 mod golden;
 
+use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, package};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
 use pounding::FmiVersion;
 use pounding::description::Package;
-use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::sync::Mutex;
 
 fn describe(scene_text: &str) -> ModelDescription {

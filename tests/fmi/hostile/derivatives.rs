@@ -133,6 +133,12 @@ fn directional_arrays() -> Vec<Row> {
         row(&name("no unknowns, null"), DIRECTIONAL, move |t| {
             t.directional((null(), 0), knowns(t, 1), edge(&[1.0]), null_mut())
         }),
+        row(&name("no unknowns, null knowns"), NEVER, |t| {
+            t.directional((null(), 0), (null(), 1), edge(&[1.0]), null_mut())
+        }),
+        row(&name("no unknowns, a null seed"), NEVER, move |t| {
+            t.directional((null(), 0), knowns(t, 1), null(), null_mut())
+        }),
         row(&name("null unknowns"), NEVER, move |t| {
             t.directional((null(), 1), knowns(t, 1), edge(&[1.0]), edge(&[0.0]))
         }),

@@ -1,15 +1,15 @@
 //! The beginning and the end of an instance.
 
 use super::rows::Case;
+use super::target::{Phase, Target};
 use crate::support::*;
-use super::target::{Phase, Target, scene};
+use pounding::FmiVersion;
 use std::ffi::{CStr, CString, c_char};
 
 pub fn cases() -> Vec<Case> {
-    let ends = Phase::ALL.into_iter().map(|phase| {
-        Case::new(format!("fmi2FreeInstance, in {phase:?}"), move || {
-            let fmu = Fmu::new(&scene());
-            let target = Target::new(&fmu, phase);
+    let ends = Phase::all(FmiVersion::V2).iter().map(|&phase| {
+        Case::new(format!("fmi2FreeInstance, in {phase:?}"), move |shared| {
+            let target = Target::new(shared.fmu(FmiVersion::V2), phase);
             if phase == Phase::NoInstance {
                 target.free();
             }
@@ -21,9 +21,9 @@ pub fn cases() -> Vec<Case> {
 /// Whether `fmi2Instantiate` gives an instance if a good call is changed like this; a refusal has a message where there
 /// is anyone to tell it to.
 fn case(name: &str, gives_one: bool, change: impl Fn(&mut Arguments) + 'static) -> Case {
-    Case::new(format!("fmi2Instantiate: {name}"), move || {
-        let fmu = Fmu::new(&scene());
-        let mut arguments = Arguments::of(&fmu);
+    Case::new(format!("fmi2Instantiate: {name}"), move |shared| {
+        let fmu = shared.fmu(FmiVersion::V2);
+        let mut arguments = Arguments::of(fmu);
         change(&mut arguments);
         let (instance, log) = fmu.instantiate(&arguments);
         assert_eq!(instance.is_some(), gives_one, "{log:?}");
@@ -99,7 +99,7 @@ fn locations() -> Vec<Case> {
 }
 
 fn versions() -> Case {
-    Case::new("what version and platform there are".to_owned(), || {
+    Case::new("what version and platform there are".to_owned(), |_| {
         for (function, expected) in [
             (fmi2GetVersion as extern "C" fn() -> *const c_char, c"2.0"),
             (fmi2GetTypesPlatform, c"default"),

@@ -2,8 +2,8 @@
 
 use super::edge::{edge, misaligned};
 use super::rows::{Row, row};
-use crate::support::{OK, State, fmi2FreeFMUstate, fmi2GetFMUstate};
 use super::target::Target;
+use crate::support::{OK, State, fmi2FreeFMUstate, fmi2GetFMUstate};
 use std::ffi::c_int;
 use std::ptr::{null, null_mut, without_provenance_mut};
 
@@ -75,9 +75,7 @@ fn null_states() -> Vec<Row> {
         }),
         row("fmi2SetFMUstate: null", NEVER, |t| t.set_state(null_mut())),
         row("fmi2FreeFMUstate: no place", ALWAYS, |t| t.of_place(fmi2FreeFMUstate, null_mut())),
-        row("fmi2FreeFMUstate: a place without a state", ALWAYS, |t| {
-            t.of_place(fmi2FreeFMUstate, edge(&[null_mut()]))
-        }),
+        row("fmi2FreeFMUstate: a place without a state", ALWAYS, |t| t.of_place(fmi2FreeFMUstate, edge(&[null_mut()]))),
         row("fmi2FreeFMUstate: the same state from two places", NEVER, |t| {
             let state = t.instance.recorded();
             t.of_place(fmi2FreeFMUstate, edge(&[state]));

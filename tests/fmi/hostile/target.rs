@@ -1,32 +1,36 @@
 //! What a hostile call is aimed at: a component in some state, or none, and the functions with the types of the standard.
 
 use crate::support::*;
+use pounding::FmiVersion;
 use std::ffi::{c_char, c_int};
 use std::ptr::null_mut;
 
 pub type Text = *const c_char;
 
-/// The states of the standard that an instance can be in, and the null pointer.
+/// The states of the standards that an instance can be in, and the null pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     Instantiated,
     Initialization,
+    /// Event Mode of FMI 3.0.
+    Event,
+    /// Step Mode of FMI 3.0.
     StepComplete,
     Terminated,
     Error,
     NoInstance,
 }
 
+use Phase::{Error, Event, Initialization, Instantiated, NoInstance, StepComplete, Terminated};
+
 impl Phase {
     /// In the order of the columns of the rows.
-    pub const ALL: [Phase; 6] = [
-        Phase::Instantiated,
-        Phase::Initialization,
-        Phase::StepComplete,
-        Phase::Terminated,
-        Phase::Error,
-        Phase::NoInstance,
-    ];
+    pub const fn all(version: FmiVersion) -> &'static [Phase] {
+        match version {
+            FmiVersion::V2 => &[Instantiated, Initialization, StepComplete, Terminated, Error, NoInstance],
+            FmiVersion::V3 => &[Instantiated, Initialization, Event, StepComplete, Terminated, Error, NoInstance],
+        }
+    }
 }
 
 /// A scene with variables of every type: a record, which brings a String, and floor forces as inputs.
@@ -43,21 +47,22 @@ pub struct Target<'f> {
 }
 
 impl<'f> Target<'f> {
+    /// In FMI 3.0 with Event Mode.
     pub fn new(fmu: &'f Fmu, phase: Phase) -> Target<'f> {
-        let instance = fmu.instance();
-        let steps: &[(Plain, c_int)] = match phase {
-            Phase::Instantiated | Phase::NoInstance => &[],
-            Phase::Initialization => &[(fmi2EnterInitializationMode, OK)],
-            Phase::StepComplete => &[(fmi2EnterInitializationMode, OK), (fmi2ExitInitializationMode, OK)],
-            Phase::Terminated => {
-                &[(fmi2EnterInitializationMode, OK), (fmi2ExitInitializationMode, OK), (fmi2Terminate, OK)]
+        let instance = fmu.with_flags(true, false);
+        match phase {
+            Instantiated | NoInstance => (),
+            Initialization => instance.enter(),
+            Event => instance.initialize(),
+            StepComplete => instance.start(),
+            Terminated => {
+                instance.start();
+                assert_eq!(instance.terminate(), OK);
             }
-            Phase::Error => &[(fmi2EnterInitializationMode, OK), (fmi2EnterInitializationMode, ERROR)],
-        };
-        for (function, status) in steps {
-            assert_eq!(instance.call(*function), *status, "{phase:?}");
+            Error => assert_eq!(instance.exit(), ERROR),
         }
-        let component = if phase == Phase::NoInstance { null_mut() } else { instance.component };
+        instance.log();
+        let component = if phase == NoInstance { null_mut() } else { instance.component };
         Target { fmu, instance, component }
     }
 

@@ -2,8 +2,8 @@
 
 use super::edge::{edge, misaligned, text};
 use super::rows::{Row, row};
+use super::target::{Phase, Target, Text};
 use crate::support::{fmi2EnterInitializationMode, fmi2ExitInitializationMode};
-use super::target::{Target, Text};
 use std::ffi::{c_int, c_void};
 use std::ptr::{null, null_mut};
 
@@ -161,7 +161,7 @@ fn strings() -> Vec<Row> {
         one("a directory", NEVER, b"/"),
         one("a device without end", NEVER, b"/dev/zero"),
         one("no record", NEVER, b"/proc/self/exe"),
-        one("no UTF-8", NEVER, b"\xff\xfe.csv"),
+        one("no UTF-8", NEVER, b"\xff\xfe.csv").says(Phase::Instantiated, "value[0]"),
         one("a cut character", NEVER, b"record\xe2\x82"),
         one("a megabyte", NEVER, long),
         one("a very deep path", NEVER, deep),
@@ -169,7 +169,8 @@ fn strings() -> Vec<Row> {
         one("a URI", NEVER, b"file:///record.csv"),
         row("fmi2SetString: a null string", NEVER, |t| {
             t.set("fmi2SetString", edge(&[t.vr("ground.record")]), 1, edge(&[null::<i8>()]))
-        }),
+        })
+        .says(Phase::Instantiated, "value[0]"),
         row("fmi2SetString: a null string among good ones", NEVER, |t| {
             let values: [Text; 3] = [text(b""), null(), text(b"")];
             t.set("fmi2SetString", edge(&[t.vr("ground.record"); 3]), 3, edge(&values))

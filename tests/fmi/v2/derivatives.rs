@@ -115,9 +115,7 @@ fn output_derivatives_are_what_the_outputs_do_next() {
         let contacts = (1..=2).filter(|p| fmu.description.variable_by_name(&format!("contact[{p}].force")).is_ok());
         let contacts: Vec<_> = contacts.collect();
         let count = || contacts.iter().map(|p| instance.integer(&format!("contact[{p}].impacts"))).sum::<i32>();
-        let active = || {
-            contacts.iter().map(|p| instance.boolean(&format!("contact[{p}].active"))).collect::<Vec<_>>()
-        };
+        let active = || contacts.iter().map(|p| instance.boolean(&format!("contact[{p}].active"))).collect::<Vec<_>>();
         let yielding = fmu.description.modelVariables.iter().filter(|v| v.name.contains(".yielding["));
         let yielding = yielding.map(|v| v.name.as_str()).collect::<Vec<_>>();
         let senses = || yielding.iter().map(|name| instance.integer(name)).collect::<Vec<_>>();

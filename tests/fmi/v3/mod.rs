@@ -1,7 +1,6 @@
 //! What FMI 3.0 has alone: Event Mode, early returns, turns within steps, adjoint derivatives, functions for what is not
 //! offered.
 
-mod arguments;
 mod derivatives;
 mod events;
 mod instantiation;

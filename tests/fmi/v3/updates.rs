@@ -1,8 +1,8 @@
 //! Intermediate updates: the turns that a step gives the master, what it may do in them, and masters that do what they may
 //! not.
 
-use crate::support::*;
 use crate::both::{TABLE_3, call};
+use crate::support::*;
 use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::slave::{Interface, Log, Slave};
