@@ -25,6 +25,9 @@ pub type State = FmuState;
 /// A function that takes the instance alone.
 pub type Plain = unsafe extern "C" fn(Component) -> c_int;
 
+/// Unknowns, knowns, seed, sensitivity.
+pub type Directional = fn(Component, &[u32], &[u32], &[f64], &mut [f64]) -> c_int;
+
 /// `fmi3IntermediateUpdateCallback`
 pub type Update = unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64);
 
@@ -43,7 +46,7 @@ pub struct Common {
     pub get_strings: fn(Component, &[u32], &mut [*const c_char]) -> c_int,
     pub set_reals: fn(Component, &[u32], &[f64]) -> c_int,
     pub set_strings: fn(Component, &[u32], &[*const c_char]) -> c_int,
-    pub directional: fn(Component, &[u32], &[u32], &[f64], &mut [f64]) -> c_int,
+    pub directional: Directional,
     pub output_derivatives: fn(Component, &[u32], &[c_int], &mut [f64]) -> c_int,
     pub record: unsafe extern "C" fn(Component, *mut State) -> c_int,
     pub restore: unsafe extern "C" fn(Component, State) -> c_int,

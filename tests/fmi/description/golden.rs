@@ -1,6 +1,6 @@
 //! The descriptions of the example scenes are committed: a change shows what it does to the users.
 //!
-//! `UPDATE_MODEL_DESCRIPTION=1 cargo test --test description` writes them anew.
+//! `UPDATE_MODEL_DESCRIPTION=1 cargo test --test fmi description` writes them anew.
 
 use pounding::FmiVersion;
 use pounding::description::Package;

@@ -13,8 +13,8 @@ mod v3;
 use crate::linked::*;
 use pounding::FmiVersion;
 use pounding::variables::{Settings, Slot, Table, Type, Value};
-use std::ffi::{CStr, c_int};
-use std::ptr::null_mut;
+use std::ffi::{c_char, c_int};
+use std::ptr::{null, null_mut};
 use std::rc::Rc;
 
 const MOST_CALLS: usize = 100;
@@ -54,24 +54,16 @@ pub fn check(bytes: &[u8]) {
 /// Communication points of the run that a reset has to bring back, s.
 const POINTS: [f64; 5] = [0.0, 0.05, 0.1, 0.15, 0.2];
 
-/// A function that takes an instance alone.
-type Plain = unsafe extern "C" fn(Component) -> c_int;
-
 /// The functions of a version that its master calls as that of the other does, and when it may.
 struct Functions {
     common: Common,
-    /// As many variables as references, by the function of one of the types.
-    get: fn(Component, usize, &[u32], &mut [f64]) -> c_int,
-    set_real: fn(Component, &[u32], &[f64]) -> c_int,
-    output_derivative: fn(Component, u32, c_int, &mut f64) -> c_int,
     directional: fn(Component, u32, u32, &mut f64) -> c_int,
-    log: fn(Component, bool, &CStr) -> c_int,
     to_read: &'static [Phase],
     to_set: &'static [Phase],
     to_differentiate: &'static [Phase],
 }
 
-/// Places of the types in [`Functions::get`].
+/// Places of the types in [`get`].
 const TYPES: [Type; 4] = [Type::Real(pounding::variables::Unit::Second), Type::Integer, Type::Boolean, Type::String];
 
 /// The states of the standards that an instance without asynchronous steps can be in.
@@ -215,7 +207,8 @@ impl Session {
     /// One variable, or none, by the function of one of the types.
     fn get(&mut self, argument: u8) {
         let (vr, place) = (u32::from(argument / 4), usize::from(argument % 4));
-        let &Functions { common: Common { version, .. }, get, to_read, .. } = self.functions;
+        let &Functions { common, to_read, .. } = self.functions;
+        let version = common.version;
         let name = TYPES[place].name(version);
         let is_time = version == FmiVersion::V3 && vr == self.shared.table.time_reference();
         let ty = self.shared.table.row(vr).map(|row| row.ty.name(version)).or(is_time.then_some("Float64"));
@@ -224,7 +217,7 @@ impl Session {
         let expected = if is_good { self.is_in(to_read) } else { ERROR };
         self.expect(&format!("get {name} {vr}"), expected, |c| {
             let mut value = [0.0];
-            let status = get(c, place, references, &mut value[..references.len()]);
+            let status = get(&common, c, place, references, &mut value[..references.len()]);
             assert!(value[0].is_finite());
             status
         });
@@ -245,7 +238,7 @@ impl Session {
             _ => (0.0, &[]),
         };
         let expected = if is_finite { self.is_in(phases) } else { ERROR };
-        let set = self.functions.set_real;
+        let set = self.functions.common.set_reals;
         self.act(&format!("set {vr} to {value}"), expected, move |c| set(c, &[vr], &[value]));
     }
 
@@ -309,9 +302,9 @@ impl Session {
         let is_good = matches!(slot, Some(Slot::Output(_))) && is_real && order == 1;
         let allowed = self.is_in(self.functions.to_differentiate);
         let expected = if is_good || allowed == ERROR { allowed } else { DISCARD };
-        let (mut rate, derive) = (0.0, self.functions.output_derivative);
-        self.expect(&format!("output derivative of {slot:?}"), expected, |c| derive(c, vr, order, &mut rate));
-        assert!(rate.is_finite());
+        let (mut rate, derive) = ([0.0], self.functions.common.output_derivatives);
+        self.expect(&format!("output derivative of {slot:?}"), expected, |c| derive(c, &[vr], &[order], &mut rate));
+        assert!(rate[0].is_finite());
     }
 
     fn directional(&mut self, argument: u8) {
@@ -340,8 +333,8 @@ impl Session {
             1 => (c"logEvents", OK),
             _ => (c"logNothingThatThereIs", ERROR),
         };
-        let log = self.functions.log;
-        self.expect("logging", expected, |c| log(c, argument / 4 % 2 == 1, category));
+        let log = self.functions.common.log;
+        self.expect("logging", expected, |c| log(c, argument / 4 % 2 == 1, &[category.as_ptr()]));
     }
 }
 
@@ -373,6 +366,26 @@ fn planned_step(model: &Model, argument: u8) -> (f64, f64, bool) {
     (current, length, is_good && stop.is_none_or(is_before_end))
 }
 
+/// As many variables as references, by the function of one of the types.
+fn get(common: &Common, c: Component, place: usize, vr: &[u32], values: &mut [f64]) -> c_int {
+    let n = vr.len();
+    let (mut whole, mut flags, mut texts) = (vec![-1; n], vec![77; n], vec![null::<c_char>(); n]);
+    match place {
+        0 => (common.get_reals)(c, vr, values),
+        1 => {
+            let status = (common.get_integers)(c, vr, &mut whole);
+            values.iter_mut().zip(whole).for_each(|(value, whole)| *value = whole.into());
+            status
+        }
+        2 => {
+            let status = (common.get_booleans)(c, vr, &mut flags);
+            values.iter_mut().zip(flags).for_each(|(value, flag)| *value = flag.into());
+            status
+        }
+        _ => (common.get_strings)(c, vr, &mut texts),
+    }
+}
+
 /// Name and bits of all variables that are numbers.
 fn bits(c: Component, functions: &Functions, table: &Table) -> Vec<(String, u64)> {
     let mut all = Vec::new();
@@ -381,7 +394,7 @@ fn bits(c: Component, functions: &Functions, table: &Table) -> Vec<(String, u64)
         let rows = || table.iter().filter(|(_, row)| is_of_type(row.ty));
         let references: Vec<u32> = rows().map(|(vr, _)| vr).collect();
         let mut values = vec![f64::NAN; references.len()];
-        assert_eq!((functions.get)(c, place, &references, &mut values), OK);
+        assert_eq!(get(&functions.common, c, place, &references, &mut values), OK);
         assert!(values.iter().all(|value| value.is_finite()));
         all.extend(rows().zip(values).map(|((_, row), value)| (row.name.clone(), value.to_bits())));
     }

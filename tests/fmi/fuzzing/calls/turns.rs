@@ -72,20 +72,20 @@ impl Turns {
         let (c, plan, Some(shared)) = (self.c.get(), self.plan.get(), self.shared.get()) else { return };
         for &(vr, value) in &*self.ends.borrow() {
             if sets {
-                assert_eq!((FUNCTIONS.set_real)(c, &[vr], &[value]), OK);
+                assert_eq!((COMMON_3.set_reals)(c, &[vr], &[value]), OK);
             }
         }
         match plan % 8 {
             2 | 3 => drop(bits(c, &FUNCTIONS, &shared.table)),
             4 | 5 if sets => self.set(c, shared, plan / 8),
-            4 | 5 if !self.only_legal.get() => self.fail((FUNCTIONS.set_real)(c, &[shared.find(GROUND)], &[1.0])),
+            4 | 5 if !self.only_legal.get() => self.fail((COMMON_3.set_reals)(c, &[shared.find(GROUND)], &[1.0])),
             6 if !self.only_legal.get() => self.misuse(c, shared, plan / 8),
             7 if !self.only_legal.get() && plan / 8 > 24 => self.free(c),
             7 => {
-                let mut rate = f64::NAN;
+                let mut rate = [f64::NAN];
                 let vr = shared.find("left.displacement[1]");
-                assert_eq!((FUNCTIONS.output_derivative)(c, vr, 1, &mut rate), OK);
-                assert!(rate.is_finite());
+                assert_eq!((COMMON_3.output_derivatives)(c, &[vr], &[1], &mut rate), OK);
+                assert!(rate[0].is_finite());
             }
             _ => {}
         }
@@ -96,7 +96,7 @@ impl Turns {
         let inputs = shared.table.iter().filter(|(_, row)| matches!(row.slot, Slot::Input(_)));
         let inputs: Vec<u32> = inputs.map(|(vr, _)| vr).collect();
         let end = (inputs[usize::from(which) % inputs.len()], 3.0 + f64::from(which) / 100.0);
-        assert_eq!((FUNCTIONS.set_real)(c, &[end.0], &[end.1]), OK);
+        assert_eq!((COMMON_3.set_reals)(c, &[end.0], &[end.1]), OK);
         self.ends.borrow_mut().push(end);
     }
 
@@ -115,8 +115,8 @@ impl Turns {
                 1 => fmi3GetFMUState(c, &raw mut place),
                 2 => fmi3Reset(c),
                 3 => fmi3Terminate(c),
-                4 => (FUNCTIONS.set_real)(c, &[shared.find(GROUND)], &[f64::NAN]),
-                5 => (FUNCTIONS.set_real)(c, &[shared.find("left.mass[1]")], &[1.0]),
+                4 => (COMMON_3.set_reals)(c, &[shared.find(GROUND)], &[f64::NAN]),
+                5 => (COMMON_3.set_reals)(c, &[shared.find("left.mass[1]")], &[1.0]),
                 6 => fmi3SetFMUState(c, state),
                 _ => fmi3EnterEventMode(c),
             });
@@ -126,7 +126,7 @@ impl Turns {
                 more => {
                     fmi3SetFMUState(c, state);
                     let mut now = [0.0];
-                    assert_eq!((FUNCTIONS.get)(c, 0, &[shared.table.time_reference()], &mut now), OK);
+                    assert_eq!((COMMON_3.get_reals)(c, &[shared.table.time_reference()], &mut now), OK);
                     step(c, now[0], 0.01);
                     if more == 3 {
                         self.free(c);

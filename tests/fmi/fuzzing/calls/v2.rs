@@ -5,45 +5,19 @@ use super::{Error, Initialization, Instantiated, MOST_CALLS, StepComplete, Termi
 use crate::linked::*;
 use crate::two_and_three_storeys::CALLS;
 use pounding::variables::Slot;
-use std::ffi::{c_char, c_int};
+use std::ffi::c_int;
 use std::ptr::null;
 use std::sync::OnceLock;
 
 const FUNCTIONS: Functions = Functions {
     common: COMMON_2,
-    get,
-    // SAFETY: a live component, as many values as references.
-    set_real: |c, vr, values| unsafe { fmi2SetReal(c, vr.as_ptr(), vr.len(), values.as_ptr()) },
-    // SAFETY: a live component, one element.
-    output_derivative: |c, vr, order, rate| unsafe {
-        fmi2GetRealOutputDerivatives(c, &raw const vr, 1, &raw const order, rate)
+    directional: |c, unknown, known, change| {
+        (COMMON_2.directional)(c, &[unknown], &[known], &[1.0], std::slice::from_mut(change))
     },
-    // SAFETY: a live component, one element each.
-    directional: |c, unknown, known, change| unsafe {
-        fmi2GetDirectionalDerivative(c, &raw const unknown, 1, &raw const known, 1, &1.0, change)
-    },
-    // SAFETY: a live component, one string.
-    log: |c, on, category| unsafe { fmi2SetDebugLogging(c, on.into(), 1, &category.as_ptr()) },
     to_read: &[Initialization, StepComplete, Terminated, Error],
     to_set: &[Instantiated, Initialization, StepComplete],
     to_differentiate: &[StepComplete, Terminated, Error],
 };
-
-fn get(c: Component, place: usize, vr: &[u32], values: &mut [f64]) -> c_int {
-    let (mut whole, mut texts) = (vec![-1; vr.len()], vec![null::<c_char>(); vr.len()]);
-    let (references, n) = (vr.as_ptr(), vr.len());
-    // SAFETY: a live component, room for as many elements as references.
-    let status = unsafe {
-        match place {
-            0 => return fmi2GetReal(c, references, n, values.as_mut_ptr()),
-            1 => fmi2GetInteger(c, references, n, whole.as_mut_ptr()),
-            2 => fmi2GetBoolean(c, references, n, whole.as_mut_ptr()),
-            _ => fmi2GetString(c, references, n, texts.as_mut_ptr()),
-        }
-    };
-    values.iter_mut().zip(whole).for_each(|(value, whole)| *value = whole.into());
-    status
-}
 
 fn shared() -> &'static Shared {
     static SHARED: OnceLock<Shared> = OnceLock::new();

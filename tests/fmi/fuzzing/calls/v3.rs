@@ -1,11 +1,11 @@
 //! Sequences of calls of FMI 3.0, of instances with and without Event Mode, early returns and turns within steps.
 
 use super::turns::{Turns, update};
-use super::{Again, Functions, Model, POINTS, Plain, Session, Shared, bits, experiment, planned_step};
+use super::{Again, Functions, Model, POINTS, Session, Shared, bits, experiment, planned_step};
 use super::{Error, Event, Initialization, Instantiated, MOST_CALLS, StepComplete, Terminated};
 use crate::linked::*;
 use crate::two_and_three_storeys::CALLS;
-use std::ffi::{c_char, c_int};
+use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
 
@@ -16,42 +16,11 @@ const COLLAPSE: &str = "name = \"Falls\"\n[left]\nmass = [1.0e5]\nstiffness = [1
 
 pub const FUNCTIONS: Functions = Functions {
     common: COMMON_3,
-    get,
-    // SAFETY: a live component, as many values as references.
-    set_real: |c, vr, values| unsafe { fmi3SetFloat64(c, vr.as_ptr(), vr.len(), values.as_ptr(), values.len()) },
-    // SAFETY: a live component, one element.
-    output_derivative: |c, vr, order, rate| unsafe {
-        fmi3GetOutputDerivatives(c, &raw const vr, 1, &raw const order, rate, 1)
-    },
     directional,
-    // SAFETY: a live component, one string.
-    log: |c, on, category| unsafe { fmi3SetDebugLogging(c, on.into(), 1, &category.as_ptr()) },
     to_read: &[Instantiated, Initialization, Event, StepComplete, Terminated, Error],
     to_set: &[Instantiated, Initialization, Event, StepComplete],
     to_differentiate: &[StepComplete, Terminated, Error],
 };
-
-fn get(c: Component, place: usize, vr: &[u32], values: &mut [f64]) -> c_int {
-    let (references, n) = (vr.as_ptr(), vr.len());
-    let (mut whole, mut flags, mut texts) = (vec![-1; n], vec![77_u8; n], vec![null::<c_char>(); n]);
-    // SAFETY: a live component, room for as many elements as references.
-    unsafe {
-        match place {
-            0 => fmi3GetFloat64(c, references, n, values.as_mut_ptr(), n),
-            1 => {
-                let status = fmi3GetInt32(c, references, n, whole.as_mut_ptr(), n);
-                values.iter_mut().zip(whole).for_each(|(value, whole)| *value = whole.into());
-                status
-            }
-            2 => {
-                let status = fmi3GetBoolean(c, references, n, flags.as_mut_ptr(), n);
-                values.iter_mut().zip(flags).for_each(|(value, flag)| *value = flag.into());
-                status
-            }
-            _ => fmi3GetString(c, references, n, texts.as_mut_ptr(), n),
-        }
-    }
-}
 
 /// By the known and, where that can be asked, by the unknown, which has to agree.
 fn directional(c: Component, unknown: u32, known: u32, change: &mut f64) -> c_int {
@@ -126,7 +95,7 @@ fn go_to(c: Component, shared: &Shared, until: f64, end: f64, turns: &Turns) {
 /// The variable of that name.
 fn time(c: Component, shared: &Shared) -> f64 {
     let mut time = [f64::NAN];
-    assert_eq!(get(c, 0, &[shared.table.time_reference()], &mut time), OK);
+    assert_eq!((COMMON_3.get_reals)(c, &[shared.table.time_reference()], &mut time), OK);
     time[0]
 }
 

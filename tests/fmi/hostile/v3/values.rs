@@ -2,6 +2,7 @@
 
 use super::super::edge::{edge, misaligned, text};
 use super::super::rows::Row;
+use super::super::target::Text;
 use super::refused;
 use crate::support::*;
 use std::ptr::{null, null_mut};
@@ -59,12 +60,12 @@ fn setting() -> Vec<Row> {
 
 fn integers_and_booleans() -> Vec<Row> {
     let (count, flag) = ("impacts", "contact[1].active");
-    // SAFETY: as above.
     let integers = move |words: &str, values: fn() -> *mut i32, n| {
+        // SAFETY: as above.
         refused("fmi3GetInt32", words, move |t, c| unsafe { fmi3GetInt32(c, edge(&[t.vr(count)]), 1, values(), n) })
     };
-    // SAFETY: as above.
     let booleans = move |words: &str, values: fn() -> *mut u8, n| {
+        // SAFETY: as above.
         refused("fmi3GetBoolean", words, move |t, c| unsafe { fmi3GetBoolean(c, edge(&[t.vr(flag)]), 1, values(), n) })
     };
     vec![
@@ -77,12 +78,12 @@ fn integers_and_booleans() -> Vec<Row> {
 
 fn strings() -> Vec<Row> {
     const RECORD: &str = "ground.record";
-    // SAFETY: as above.
-    let get = |words: &str, values: fn() -> *mut *const i8, n| {
+    let get = |words: &str, values: fn() -> *mut Text, n| {
+        // SAFETY: as above.
         refused("fmi3GetString", words, move |t, c| unsafe { fmi3GetString(c, edge(&[t.vr(RECORD)]), 1, values(), n) })
     };
-    // SAFETY: as above.
-    let set = |words: &str, values: fn() -> *const *const i8, n| {
+    let set = |words: &str, values: fn() -> *const Text, n| {
+        // SAFETY: as above.
         refused("fmi3SetString", words, move |t, c| unsafe { fmi3SetString(c, edge(&[t.vr(RECORD)]), 1, values(), n) })
     };
     vec![
