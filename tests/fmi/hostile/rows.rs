@@ -106,7 +106,11 @@ fn check(shared: &Shared, row: &Row, phase: Phase, expected: char) {
     let log = target.instance.log();
     assert!(is_expected, "status {status}, expected {expected:?}: {log:?}");
     if let Some(words) = words {
-        assert!(log.len() == 1 && log[0].message.contains(words), "expected {words:?}: {log:?}");
+        let [line] = &log[..] else { panic!("one message: {log:?}") };
+        let is_of = |function: &str| line.message.starts_with(&format!("{function}: "));
+        assert!(row.name.split([':', ',']).next().is_some_and(is_of), "{line:?}");
+        assert!(line.message.contains(words), "expected {words:?}: {line:?}");
+        assert_eq!((line.status, line.category.as_str()), (ERROR, "logStatusError"));
         assert_eq!(shown(&target, phase), before, "something has changed");
     }
     if status == ERROR && phase != Phase::NoInstance {

@@ -32,6 +32,28 @@ fn status_information() {
     assert_eq!(real(2, null_mut()), ERROR);
 }
 
+/// FMI 2.0 has no other way to say that a run is over than to discard the step, and a status that says so.
+#[test]
+fn a_collapse_discards_the_step() {
+    let fmu = Fmu::new(COLLAPSE);
+    let instance = started(&fmu);
+    for _ in 0..2 {
+        assert_eq!(instance.step(0.0, 10.0), DISCARD, "{:?}", instance.log());
+        let log = instance.log();
+        let last = log.last().unwrap();
+        assert_eq!((last.status, last.category.as_str()), (DISCARD, "logStatusDiscard"));
+        let time = instance.time();
+        assert!(time > 0.0 && time < 1.0, "{time} s");
+        let (outputs, mut terminated) = (instance.outputs(), -1);
+        // SAFETY: a live instance, and a place.
+        assert_eq!((unsafe { fmi2GetBooleanStatus(instance.component, 3, &mut terminated) }, terminated), (OK, 1));
+        assert_eq!(instance.step(time, 0.1), DISCARD);
+        assert_eq!((instance.time(), instance.outputs()), (time, outputs));
+        assert_eq!(instance.reset(), OK);
+        instance.start();
+    }
+}
+
 #[test]
 fn what_is_set_by_the_function_of_another_type_is_not_set() {
     let fmu = Fmu::new(SCENE);

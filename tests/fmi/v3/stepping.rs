@@ -2,11 +2,6 @@
 
 use crate::support::*;
 
-/// A storey whose side is pushed over: the run ends with its collapse.
-const COLLAPSE: &str = "name = \"Falls\"\n[left]\nmass = [1.0e5]\nstiffness = [1.0e6]\nheight = [3.0]\n\
-    damping = { ratio = 0.0 }\nyield_force = [1.0e4]\npost_yield_ratio = [0.0]\np_delta = true\n\
-    collapse_drift_ratio = 0.1\ninitial_velocity = [2.0]\n";
-
 #[test]
 fn a_step_writes_all_that_it_has_come_to() {
     let fmu = Fmu::v3(RECORD_SCENE);
