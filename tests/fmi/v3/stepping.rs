@@ -1,4 +1,4 @@
-//! Communication steps: what they write, and which are refused.
+//! What communication steps write, also those that are refused or end the run.
 
 use crate::support::*;
 
@@ -16,8 +16,9 @@ fn a_step_writes_all_that_it_has_come_to() {
     }
 }
 
+/// Which steps are refused both versions are asked (`both/stepping.rs`); FMI 3.0 writes where the run is all the same.
 #[test]
-fn steps_that_lead_nowhere_are_refused() {
+fn a_refused_step_writes_where_the_run_is() {
     let fmu = Fmu::v3(SCENE);
     for (current, step, expected) in [
         (0.0, 0.0, "communicationStepSize = 0"),
