@@ -59,7 +59,10 @@ impl<'f> Target<'f> {
                 instance.start();
                 assert_eq!(instance.terminate(), OK);
             }
-            Error => assert_eq!(instance.exit(), ERROR),
+            Error => {
+                instance.enter();
+                assert_eq!(instance.enter_from(0.0, None), ERROR, "a second time");
+            }
         }
         instance.log();
         let component = if phase == NoInstance { null_mut() } else { instance.component };
