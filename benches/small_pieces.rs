@@ -15,10 +15,9 @@ use pounding::scene::Scene;
 use pounding::variables::{Slot, Table, Type};
 use problems::laws::{Laws, contact};
 use problems::two_masses::{Mass, TwoMasses};
-use std::ffi::{c_int, c_void};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
-use support::{Fmu, Instance, OK};
+use support::{Component, Fmu, Instance, OK, fmi2DoStep, fmi2GetReal};
 
 const GROUND_STEP: f64 = 0.01;
 const SAMPLES: usize = 2001;
@@ -165,10 +164,6 @@ fn name(law: &str) -> &str {
     law.split('"').nth(1).unwrap()
 }
 
-type Component = *mut c_void;
-type DoStep = unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int;
-type GetReal = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int;
-
 /// The FMU's own calls through its C interface: for the scene that `cargo fmu` packs, and on 20 and 30 storeys with 20
 /// contacts.
 fn fmu(criterion: &mut Criterion) {
@@ -197,11 +192,10 @@ fn calls(criterion: &mut Criterion, name: &str, quiet: &Quiet) {
         bencher.iter_custom(|steps| at_each_step(quiet, steps, |_| ()).0);
     });
 
-    let get_real: GetReal = fmu.symbol("fmi2GetReal");
     let mut values = vec![0.0; 1000];
     let mut get = |component: Component, references: &[u32]| {
         // SAFETY: a live component, and room for all values.
-        let status = unsafe { get_real(component, references.as_ptr(), references.len(), values.as_mut_ptr()) };
+        let status = unsafe { fmi2GetReal(component, references.as_ptr(), references.len(), values.as_mut_ptr()) };
         assert_eq!(status, OK);
     };
     let rows = Table::new(&fmu.package.scene);
@@ -252,7 +246,6 @@ fn calls(criterion: &mut Criterion, name: &str, quiet: &Quiet) {
 /// Does something after each step of 1 ms; the time of all steps, and that of what was done.
 fn at_each_step(quiet: &Quiet, steps: u64, mut then: impl FnMut(Component)) -> (Duration, Duration) {
     let Quiet { fmu, steps: quiet_steps } = quiet;
-    let do_step: DoStep = fmu.symbol("fmi2DoStep");
     let (mut instance, mut step) = (started(fmu), 0);
     let (mut stepping, mut doing) = (Duration::ZERO, Duration::ZERO);
     for _ in 0..steps {
@@ -262,7 +255,7 @@ fn at_each_step(quiet: &Quiet, steps: u64, mut then: impl FnMut(Component)) -> (
         }
         let start = Instant::now();
         // SAFETY: a live component.
-        let status = unsafe { do_step(instance.component, f64::from(step) * 1e-3, 1e-3, 1) };
+        let status = unsafe { fmi2DoStep(instance.component, f64::from(step) * 1e-3, 1e-3, 1) };
         let stepped = Instant::now();
         then(instance.component);
         doing += stepped.elapsed();

@@ -1,6 +1,6 @@
 #![no_main]
 
-#[path = "../../tests/fuzzing/calls/mod.rs"]
+#[path = "../../tests/fmi/fuzzing/calls/mod.rs"]
 mod calls;
 #[path = "../../tests/support/linked.rs"]
 mod linked;

@@ -1,6 +1,6 @@
 #![no_main]
 
-#[path = "../../tests/fuzzing/record.rs"]
+#[path = "../../tests/fmi/fuzzing/record.rs"]
 mod record;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| record::check("fuzz.csv", bytes));

@@ -1,6 +1,6 @@
 #![no_main]
 
-#[path = "../../tests/fuzzing/scene.rs"]
+#[path = "../../tests/fmi/fuzzing/scene.rs"]
 mod scene;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| scene::check(bytes));

@@ -2,7 +2,7 @@
 #![allow(dead_code, unused_imports, clippy::unwrap_used)] // each test uses its share
 
 #[path = "../problems/two_and_three_storeys.rs"]
-mod two_and_three_storeys;
+pub mod two_and_three_storeys;
 
 use pounding::scene::{Package, PackagedRecord, Scene};
 pub use two_and_three_storeys::{RECORD_SCENE, RICH, SCENE};
@@ -163,3 +163,8 @@ law = "kelvin_voigt"
 stiffness = 1.0e4
 restitution = 0.65
 "#;
+
+/// A storey whose side is pushed over: the run ends with its collapse.
+pub const COLLAPSE: &str = "name = \"Falls\"\n[left]\nmass = [1.0e5]\nstiffness = [1.0e6]\nheight = [3.0]\n\
+    damping = { ratio = 0.0 }\nyield_force = [1.0e4]\npost_yield_ratio = [0.0]\np_delta = true\n\
+    collapse_drift_ratio = 0.1\ninitial_velocity = [2.0]\n";

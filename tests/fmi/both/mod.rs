@@ -1,0 +1,15 @@
+//! What both versions are asked.
+
+mod calls;
+mod derivatives;
+mod directional;
+mod instantiation;
+mod logging;
+mod sequence;
+mod serialized;
+mod states;
+mod stepping;
+mod values;
+mod warnings;
+
+pub use calls::{TABLE_3, call};
