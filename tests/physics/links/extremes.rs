@@ -1,7 +1,7 @@
 //! Slip forces, ratios and stiffnesses so large or small that a simpler link is met.
 
+use super::devices::{Difference, between, bits, linked, motion, of_link, shaken, slipping};
 use crate::common::{Run, record};
-use crate::devices::{Difference, between, bits, linked, motion, of_link, shaken, slipping};
 use pounding::engine::LinkOutput;
 use pounding::record::Record;
 use pounding::scene::Link;

@@ -1,7 +1,7 @@
 //! Frequencies, static displacements and positions of rest on soil, in closed form; the balance of moments at any time.
 
+use super::{foundation, frame, run_for};
 use crate::common::{Run, assert_close, press, scene};
-use crate::soil::{foundation, frame, run_for};
 use pounding::engine::{EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -143,7 +143,7 @@ fn rates_of_gravity(scene: &Scene, run: &Run) -> [f64; 2] {
 fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
     let keys = YIELDING.to_owned() + "p_delta = true\n";
     let scene = frame(&keys, &foundation(SOIL));
-    let mut run = Run::new(&scene, Some(&crate::soil::shaking()));
+    let mut run = Run::new(&scene, Some(&super::shaking()));
     let (mut worst, mut largest) = ([0.0_f64; 4], [0.0_f64; 4]);
     let mut rates = PointRates::default();
     for k in 1..400 {

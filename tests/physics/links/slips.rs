@@ -1,8 +1,8 @@
 //! A hundred thousand slips of a friction damper, each a part of a closed form.
 
+use super::devices::{Pair, between, linked, of_link, slipping};
 use crate::bilinear::Oscillator;
 use crate::common::assert_close;
-use crate::devices::{Pair, between, linked, of_link, slipping};
 use pounding::engine::{LinkOutput, Side};
 
 /// Forces that push the masses together and apart again and again, as in `physics/yielding_times.rs`.

@@ -1,7 +1,7 @@
 //! A part of the grid of extremes: every run ends with its energy accounted for, or with a message that names the
 //! parameter. `benchmarks/extremes.py` runs and draws all of it.
 
-use crate::extremes::{Extreme, LAWS, ORDINARY, Outcome, grid};
+use super::extremes::{Extreme, LAWS, ORDINARY, Outcome, grid};
 
 /// The names under which a user finds what to change.
 const KEYS: [&str; 9] = [

@@ -1,7 +1,7 @@
 //! What answers to an input at the same instant: accelerations, and reactions between floors that are held together. What the
 //! directional derivatives say is a closed form, and what is read changes by as much.
 
-use crate::closed_forms::{ONE, one_storey};
+use super::closed_forms::{ONE, one_storey};
 use crate::common::{Run, press, scene};
 use pounding::engine::{ContactOutput, FoundationOutput as F, Input, Output, Response, Side};
 use pounding::scene::Scene;

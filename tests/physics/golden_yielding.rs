@@ -1,11 +1,8 @@
 //! Storeys that yield and links that slip, against the independent solution in quadruple precision (tests/reference), which knows no position
 //! of rest: plastic drifts are unknowns of its own. Displacements, velocities, energies and impacts of the same scenes are
 //! compared in `golden.rs`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::Run;
+use crate::common::Run;
 use pounding::engine::{LinkOutput, Output, Side, YieldingOf};
 use pounding::scene;
 use std::collections::HashMap;

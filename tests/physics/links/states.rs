@@ -1,7 +1,7 @@
 //! States that are saved while a damper slips go on to the same bits, also through bytes; forged ones are refused.
 
+use super::devices::{between, bits, linked, of_link, shaken, slipping, to_wall};
 use crate::common::{Run, record};
-use crate::devices::{between, bits, linked, of_link, shaken, slipping, to_wall};
 use pounding::engine::{LinkOutput, Output, Point, SavedState, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;

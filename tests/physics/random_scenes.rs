@@ -1,24 +1,17 @@
 //! Random scenes: every run ends, its energy is accounted for, no force pulls where the law has no tension, rigid floors
 //! do not overlap, storeys that yield keep to their lines, no peak falls or is below what is read at the same time, one
 //! communication step or two hundred give the same bits. Each begins at rest, many with floors that touch, where everything is rounding at first.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-#[path = "problems/random_frames.rs"]
-mod random_frames;
-#[path = "problems/random_soil.rs"]
-mod random_soil;
-
-use common::peaks::Watch;
-use common::problems::laws::contact;
-use common::{Run, record};
+use crate::common::peaks::Watch;
+use crate::common::problems::laws::contact;
+use crate::common::{Run, record};
+use crate::random_frames::{Frame, frame};
+use crate::random_soil::{Soil, on_soil, soil};
 use pounding::engine::{FoundationOutput, Output, Side};
 use pounding::record::Record;
 use pounding::scene::{Place, Scene, Share};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use random_frames::{Frame, frame};
-use random_soil::{Soil, on_soil, soil};
 
 /// Law, stiffness over mass, restitution.
 fn law() -> impl Strategy<Value = (&'static str, f64, f64)> {

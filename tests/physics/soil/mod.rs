@@ -1,4 +1,12 @@
-//! A frame on soil and its ground motion, as the tests of this group share them.
+//! Buildings whose foundations sway and rock: against an independent solution in quadruple precision, closed forms,
+//! matrices, and the same run told in another way. Here is what they share: a frame on soil and its ground motion.
+
+mod closed_forms;
+mod frames;
+mod inputs;
+mod invariants;
+mod random;
+mod reference;
 
 use crate::common::{Run, record, scene};
 use pounding::record::Record;

@@ -1,8 +1,8 @@
 //! Linked buildings that nothing else is between are one building, given by its stiffness and damping matrices; a device to
 //! the ground stiffens the floor that it holds; what is tied by a stiff link is one mass, by a soft one two buildings.
 
+use super::devices::{Difference, Pair, between, linked, motion, shaken, to_wall};
 use crate::common::{Run, record};
-use crate::devices::{Difference, Pair, between, linked, motion, shaken, to_wall};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use pounding::engine::{LinkOutput, Output, PeakOf, Side};
 use pounding::record::Record;

@@ -1,11 +1,11 @@
 //! Random frames on random soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
+use super::shaking;
 use crate::common::problems::laws::contact;
 use crate::common::scene;
 use crate::piecewise::assert_same_motion;
 use crate::random_frames::{Frame, frame};
 use crate::random_soil::{on_soil, soil};
-use crate::soil::shaking;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

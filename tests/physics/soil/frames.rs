@@ -1,9 +1,9 @@
 //! Frames on soil, with storeys that yield, P-delta, contacts with floors and columns, and foundations that are linked through
 //! the soil, beside exponentials of the matrices of their phases (`physics/piecewise/`).
 
+use super::shaking;
 use crate::common::{Run, scene};
 use crate::piecewise::{Piecewise, assert_same_motion};
-use crate::soil::shaking;
 use pounding::engine::{FoundationOutput as F, Output, Side};
 use pounding::scene::Scene;
 

@@ -1,8 +1,8 @@
 //! Two equal oscillators with a link between them: moving against each other each is one mass on its own spring and twice
 //! that of the link, moving together they do not feel it.
 
+use super::devices::{Pair, between, of_link, slipping};
 use crate::bilinear::Oscillator;
-use crate::devices::{Pair, between, of_link, slipping};
 use pounding::engine::{LinkOutput, PeakOf, Side};
 
 /// Of one mass on a spring and a dashpot from rest position, with a speed: displacement and velocity.

@@ -1,8 +1,8 @@
 //! A storey that gravity pushes on once it yields, held by its neighbour through a spring: where it comes to rest, and from
 //! where it does not come back.
 
+use super::devices::{between, linked};
 use crate::common::Run;
-use crate::devices::{between, linked};
 use pounding::engine::Side;
 
 /// N/m: columns of the left storey, what gravity takes of them, the right storey.

@@ -3,11 +3,8 @@
 //! Each golden row says how much errors have grown by then (`sensitivity`). No method in double precision can do
 //! better than its rounding times that; the engine is allowed a fixed error per unit of it: relative to the largest
 //! displacement (velocity, force ...), about three times what was measured when the test was written.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::Run;
+use crate::common::Run;
 use pounding::engine::{Episode, FoundationOutput, Output, Side};
 use pounding::record::Record;
 use pounding::scene::{self, Scene};

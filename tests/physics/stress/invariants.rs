@@ -4,9 +4,9 @@
 //! Where a change is one of rounding only, the answer may differ by rounding times what the scene makes of it; that
 //! growth is measured by a nudge to the record.
 
+use super::random::{Case, case};
 use crate::common::Run;
 use crate::common::problems::laws::contact;
-use crate::random::{Case, case};
 use pounding::engine::{Output, Side};
 use pounding::record::Record;
 use pounding::scene::{Face, Scaling, Scene, Stiffness};

@@ -1,9 +1,9 @@
 //! What must not matter: whether the foundation that sways is called a floor, left and right, communication steps, saving. And
 //! what must hold at any time: peaks are those of all that is read, energies add up, heavy dashpots let a foundation creep.
 
+use super::{foundation, frame, run_for, shaking};
 use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
-use crate::soil::{foundation, frame, run_for, shaking};
 use pounding::engine::{EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates, SavedState, Side};
 use pounding::scene::{Face, Scene};
 

@@ -1,8 +1,8 @@
 //! Slips at awkward instants: at the start, on a sample, while a contact is closed, and ended by an impulse.
 
+use super::devices::{Pair, between, linked, of_link, slipping};
 use crate::bilinear::Oscillator;
 use crate::common::Run;
-use crate::devices::{Pair, between, linked, of_link, slipping};
 use pounding::engine::{LinkOutput, Side};
 use pounding::record::Record;
 use pounding::scene::{Link, Scene};

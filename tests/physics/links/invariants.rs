@@ -1,8 +1,8 @@
 //! What must not matter: left and right, the order of links, one link or two of half its size, a device that yields or a
 //! spring beside a friction damper, and communication steps.
 
+use super::devices::{Difference, between, bits, linked, motion, of_link, shaken, slipping, to_wall};
 use crate::common::{Run, record};
-use crate::devices::{Difference, between, bits, linked, motion, of_link, shaken, slipping, to_wall};
 use crate::random_frames::frame;
 use pounding::engine::{LinkOutput, Side};
 use pounding::record::Record;

@@ -1,11 +1,8 @@
 //! Attempts to break the engine, one file for each family of hazards. Each test says beforehand what is right and why:
 //! a closed form, a conserved quantity, a symmetry or a limit, never an earlier answer of the engine itself.
 //! docs/stability.md tells which test covers which hazard, those of other files included.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod alike;
-#[path = "../common/mod.rs"]
-mod common;
 mod elastic;
 mod extremes;
 mod grid;
@@ -14,8 +11,6 @@ mod invariants;
 mod limits;
 mod pressed;
 mod random;
-#[path = "../problems/random_frames.rs"]
-mod random_frames;
 mod repetition;
 mod time;
 mod work_limits;

@@ -1,0 +1,136 @@
+//! What must not matter: every scene of `scenes.rs` under every change of `changes.rs` that applies to it, and run in every
+//! way of `ways.rs`. A new feature gets all of them by a row in `scenes.rs`; a new change is a test here.
+
+pub mod case;
+pub mod changes;
+pub mod compare;
+mod scenes;
+mod ways;
+
+use case::{Case, Units};
+use compare::Pair;
+use scenes::Row;
+
+/// What a change leaves of a motion.
+#[derive(Clone, Copy, PartialEq)]
+enum Leaves {
+    /// Every bit of it.
+    Bits,
+    /// All but rounding: sums are made in another order, or powers rounded.
+    Rounding,
+}
+
+/// Tries each scene, and tells all those that fail.
+fn try_each(what: &str, least: usize, of: impl Fn(&Row) -> Option<Result<(), String>>) {
+    let tried: Vec<(&str, Result<(), String>)> =
+        scenes::ALL.iter().filter_map(|row| Some((row.name, of(row)?))).collect();
+    let failed: Vec<String> =
+        tried.iter().filter_map(|(name, tried)| Some(format!("{name} x {what}: {}", tried.as_ref().err()?))).collect();
+    assert!(failed.is_empty(), "{} of {} scenes:\n{}", failed.len(), tried.len(), failed.join("\n"));
+    assert!(tried.len() >= least, "{what}: tried with {} scenes only", tried.len());
+}
+
+/// Each scene under a change that leaves so much of it.
+fn try_change(what: &str, least: usize, change: impl Fn(&Case) -> Option<(Case, Leaves)>) {
+    try_each(what, least, |row| {
+        let (changed, leaves) = change(&row.case)?;
+        let (plain, other) = (row.plain(), changed.history());
+        let pair = Pair { case: &row.case, plain, changed: &changed, other: &other };
+        Some(match leaves {
+            Leaves::Bits => pair.have_same_bits(),
+            Leaves::Rounding => pair.are_close(row.rounding),
+        })
+    });
+}
+
+/// Each scene run in another way, to the same bits.
+fn try_way(what: &str, least: usize, way: impl Fn(&Row) -> Option<Result<(), String>>) {
+    try_each(what, least, way);
+}
+
+/// A scene is there for what happens in it.
+#[test]
+fn what_each_scene_is_there_for_happens() {
+    try_each("itself", 40, |row| Some(row.happens()));
+}
+
+#[test]
+fn left_and_right() {
+    try_change("left and right", 40, |case| Some((changes::mirrored(case), Leaves::Rounding)));
+}
+
+#[test]
+fn the_other_way() {
+    try_change("the other way", 4, |case| Some((changes::the_other_way(case)?, Leaves::Bits)));
+}
+
+#[test]
+fn the_order_of_contacts_and_links() {
+    try_change("order", 20, |case| Some((changes::in_another_order(case)?, Leaves::Rounding)));
+}
+
+/// Powers of two of which every root that the laws take is one, too.
+#[test]
+fn units() {
+    for (mass, length, time) in [(4.0_f64.powi(-5), 1.0, 1.0), (4.0_f64.powi(3), 16.0, 8.0), (1.0, 1.0 / 256.0, 0.25)] {
+        let units = Units { mass, length, time };
+        let leaves = |case: &Case| if changes::has_exact_powers(&case.scene) { Leaves::Bits } else { Leaves::Rounding };
+        try_change(&format!("{units:?}"), 40, |case| Some((changes::in_units(case, units), leaves(case))));
+    }
+}
+
+#[test]
+fn twelve_days_later() {
+    try_change("twelve days later", 15, |case| Some((changes::later(case)?, Leaves::Bits)));
+}
+
+#[test]
+fn whether_peaks_are_watched() {
+    try_change("without peaks", 30, |case| Some((changes::without_peaks(case)?, Leaves::Bits)));
+}
+
+#[test]
+fn whether_energy_is_accounted_for() {
+    try_change("without an account", 30, |case| Some((changes::without_account(case)?, Leaves::Bits)));
+}
+
+/// Also by next to nothing, and to rigid floors.
+#[test]
+fn a_contact_out_of_reach() {
+    for (what, margin, law) in [
+        ("out of reach", 1e3, "law = \"hertz\"\nstiffness = 1e9"),
+        ("just out of reach", 1e-4, "law = \"stereomechanical\"\nrestitution = 0.5"),
+    ] {
+        try_change(what, 30, |case| {
+            let (floors, nearest) = ways::nearest(case)?;
+            Some((changes::with_contact(case, floors, nearest + margin, law), Leaves::Bits))
+        });
+    }
+}
+
+#[test]
+fn whether_a_run_is_read() {
+    try_way("unread", 40, |row| Some(ways::unread(row)));
+}
+
+#[test]
+fn communication_steps() {
+    for step in [0.37, 1.0 / 64.0, 0.0125, 0.0037, 0.001] {
+        try_way(&format!("steps of {step} s"), 30, |row| ways::in_steps(row, step));
+    }
+}
+
+#[test]
+fn steps_of_a_nanosecond_at_events() {
+    try_way("steps of a nanosecond", 25, ways::at_events);
+}
+
+#[test]
+fn saved_states() {
+    try_way("saved", 40, |row| Some(ways::saved(row)));
+}
+
+#[test]
+fn copies_and_ways_back() {
+    try_way("copied and taken back", 40, |row| Some(ways::copied_and_taken_back(row)));
+}
