@@ -9,7 +9,7 @@ use pounding::scene::Scene;
 use pounding::variables::{Slot, Table, Type, Unit};
 
 /// s, between the points at which a master sets the inputs: exact in binary.
-const MASTER: f64 = 1.0 / 64.0;
+pub const MASTER: f64 = 1.0 / 64.0;
 
 /// How many times a run is read at, but for its end.
 const READINGS: usize = 24;
@@ -139,12 +139,20 @@ impl Case {
         run
     }
 
+    /// Whether what is read at a time has the bits of an earlier run. Far from 0 the times of events are rounded, so that it
+    /// is so at samples and where a master sets the inputs, but not between them.
+    pub fn is_exact_at(&self, time: f64) -> bool {
+        let is_sample = |record: &Record| record.times.contains(&self.own_time(time));
+        self.start == 0.0 || self.record.as_ref().map_or((time / MASTER).fract() == 0.0, is_sample)
+    }
+
     /// When the run is read: uneven times, exact in binary, which are the master's where there is one; the end is the last.
     pub fn times(&self) -> Vec<f64> {
-        let grid = if self.master.is_some() { MASTER } else { 1.0 / 1024.0 };
+        let between = if self.master.is_some() { MASTER } else { 1.0 / 1024.0 };
         let uneven = |k: usize| self.duration * (k as f64 + 0.1 * (k * 7 % 5) as f64) / READINGS as f64;
-        let times = (1..READINGS).map(|k| (uneven(k) / grid).round() * grid);
-        times.chain([(self.duration / grid).round() * grid]).collect()
+        let rounded = |time: f64, grid: f64| (time / grid).round() * grid;
+        let times = (1..READINGS).map(|k| rounded(uneven(k), if k % 3 == 0 { MASTER } else { between }));
+        times.chain([rounded(self.duration, MASTER)]).collect()
     }
 
     /// A time, as the run has it.

@@ -117,7 +117,7 @@ pub fn in_another_order(case: &Case) -> Option<Case> {
     Some(case)
 }
 
-/// All of it the same time later, where its times stay exact.
+/// All of it the same time later, where its times stay exact and its end is at a sample.
 pub fn later(case: &Case) -> Option<Case> {
     let is_exact = |time: &f64| (time + LATER) - LATER == *time;
     if !case.record.iter().flat_map(|record| &record.times).all(is_exact) {
@@ -126,7 +126,8 @@ pub fn later(case: &Case) -> Option<Case> {
     let mut case = case.clone();
     case.start += LATER;
     case.record.iter_mut().flat_map(|record| &mut record.times).for_each(|time| *time += LATER);
-    Some(case)
+    let is_exact = case.is_exact_at(*case.times().last()?);
+    is_exact.then_some(case)
 }
 
 /// Without peaks, but for those of contacts, which are always there.
@@ -244,10 +245,16 @@ fn link_in_units(link: &mut Link, units: &Units) {
     }
 }
 
-/// Whether powers of two scale all numbers of a run exactly: every power in its laws is one of square roots.
-pub fn has_exact_powers(scene: &Scene) -> bool {
-    scene.contacts.iter().all(|pair| {
+/// Whether powers of two scale all numbers of a run exactly: every power in its laws is one of square roots, and no frame
+/// whose damping is told by its modes rocks, which mixes metres and radians in sums of squares.
+pub fn scales_exactly(scene: &Scene) -> bool {
+    let has_root = |pair: &ContactPair| {
         let name = pair.law.kind.info().name;
         !name.starts_with("hertz") && name != "jankowski" || name == "hertz" && pair.law.exponent == 1.0
-    })
+    };
+    let mixes = |building: &Building| {
+        let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
+        rocks && !matches!(building.damping, Damping::Dashpots(_) | Damping::Matrix(_))
+    };
+    scene.contacts.iter().all(has_root) && !mixes(&scene.left) && !mixes(&scene.right)
 }

@@ -24,14 +24,25 @@ impl Pair<'_> {
         self.changed.shown.iter().map(|shown| (shown, places[shown.name.as_str()])).collect()
     }
 
-    /// The same bits of all outputs at all times, and of all episodes.
+    /// The same bits of all outputs at all times, and of all episodes; but that a zero may have another sign.
     pub fn have_same_bits(&self) -> Result<(), String> {
         let outputs = self.outputs();
         for ((time, one), other) in self.plain.times.iter().zip(&self.plain.readings).zip(&self.other.readings) {
-            let one: Vec<f64> = outputs.iter().map(|(_, place)| one[*place]).collect();
-            same_bits(&self.changed.shown, *time, &one, other)?;
+            if self.changed.is_exact_at(*time) {
+                let one: Vec<f64> = outputs.iter().map(|(_, place)| one[*place] + 0.0).collect();
+                let other: Vec<f64> = other.iter().map(|other| other + 0.0).collect();
+                same_bits(&self.changed.shown, *time, &one, &other)?;
+            }
         }
-        same_episodes(&self.plain.episodes, &self.other.episodes)
+        let late = f64::EPSILON * self.changed.start.abs();
+        let other: Vec<Episode> = self
+            .plain
+            .episodes
+            .iter()
+            .zip(&self.other.episodes)
+            .map(|(one, other)| at_times_of(one, other, late))
+            .collect();
+        same_episodes(&self.plain.episodes, if late > 0.0 { &other } else { &self.other.episodes })
     }
 
     /// The same but for so much, relative to the largest value of its kind: all outputs at all times, and all episodes.
@@ -107,15 +118,22 @@ fn kind(name: &str) -> &str {
     last.split('[').next().unwrap_or(last)
 }
 
-/// The same bits of two readings; what has changed its sign may have changed that of a zero, too.
+/// The same bits of two readings.
 pub fn same_bits(shown: &[Shown], time: f64, one: &[f64], other: &[f64]) -> Result<(), String> {
-    for ((shown, one), other) in shown.iter().zip(one).zip(other) {
-        let is_same = one.to_bits() == other.to_bits() || shown.sign < 0.0 && one == other;
-        if !is_same {
-            return Err(format!("{} at {time} s: {one:e} and {other:e}", shown.name));
-        }
+    let differs = |((_, one), other): &((&Shown, &f64), &f64)| one.to_bits() != other.to_bits();
+    match shown.iter().zip(one).zip(other).find(differs) {
+        Some(((shown, one), other)) => Err(format!("{} at {time} s: {one:e} and {other:e}", shown.name)),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// An episode with the times of another one, where they differ by no more than so much: by the rounding of late times.
+fn at_times_of(one: &Episode, other: &Episode, late: f64) -> Episode {
+    let near = |one: f64, other: f64| if (one - other).abs() <= late { one } else { other };
+    let mut near_one = *other;
+    (near_one.start, near_one.peak_time) = (near(one.start, other.start), near(one.peak_time, other.peak_time));
+    near_one.end = one.end.zip(other.end).map(|(one, other)| near(one, other)).or(other.end);
+    near_one
 }
 
 pub fn same_episodes(one: &[Episode], other: &[Episode]) -> Result<(), String> {

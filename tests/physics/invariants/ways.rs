@@ -1,12 +1,11 @@
 //! What must not matter of how a scene is run: when it is read, in which steps it goes on, whether its state is saved, copied or
 //! taken back. All of it leaves the same bits.
 
-use super::case::{Case, Master};
+use super::case::{Case, MASTER};
 use super::compare::{same_bits, same_episodes};
 use super::scenes::Row;
 use crate::common::Run;
-use pounding::engine::SavedState;
-use pounding::engine::Side;
+use pounding::engine::{SavedState, Side};
 
 /// Events of a run at which it is looked at closely.
 const EVENTS: usize = 5;
@@ -147,14 +146,18 @@ pub fn nearest(case: &Case) -> Option<((usize, usize), f64)> {
     if left == 0 || right == 0 || is_there {
         return None;
     }
-    let mut run = case.run();
-    let mut nearest = 0.0_f64;
-    let end = *case.times().last()?;
-    let count = if case.master == None::<Master> { 2000 } else { (end * 64.0) as usize };
-    for k in 1..=count {
-        case.go(&mut run, end * k as f64 / count as f64);
-        run.model.observe(&run.state, &mut run.point);
-        nearest = nearest.max(run.displacement(Side::Left, 0) - run.displacement(Side::Right, right - 1));
+    let (mut run, mut nearest) = (case.run(), 0.0_f64);
+    let count = (case.times().last()? / MASTER) as usize;
+    for point in 0..count {
+        let time = MASTER * point as f64;
+        case.go(&mut run, time);
+        // Within a master's step on a copy, which has no other end of it.
+        let here = run.state.clone();
+        for part in 1..=8 {
+            run.to(case.own_time(time + MASTER * f64::from(part) / 8.0));
+            nearest = nearest.max(run.displacement(Side::Left, 0) - run.displacement(Side::Right, right - 1));
+        }
+        run.state = here;
     }
     Some(((1, right), nearest))
 }
