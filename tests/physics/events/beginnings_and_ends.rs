@@ -274,48 +274,6 @@ fn two_pairs_that_meet_at_the_same_instant_both_begin_there() {
     }
 }
 
-#[test]
-fn a_state_saved_in_mid_contact_goes_on_with_the_same_bits() {
-    let speed = 0.01 * 2.0 * PI;
-    for law in ["law = \"linear\"\nstiffness = 1.0e6", "law = \"hertz\"\nstiffness = 1.0e7"] {
-        let contact = format!("[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.004\n{law}");
-        let mut scene = pendulum(&format!("initial_velocity = [{speed:?}]"), &contact);
-        scene.ground.record = Some("r.csv".into());
-        let record = record(0.05, &[0.0, 0.1, -0.1, 0.05, 0.0, 0.1, 0.0]);
-        let mut run = Run::new(&scene, Some(&record));
-        run.to(entry(0.004) + 1.5e-3);
-        assert!(run.contact(0).active, "{law}");
-        let saved = run.state.clone();
-        run.to(0.9);
-        let first = run.bits();
-        run.state = saved;
-        run.to(0.9);
-        assert_eq!(first, run.bits(), "{law}");
-    }
-}
-
-#[test]
-fn reading_changes_nothing_and_steps_split_without_a_trace() {
-    // With the record inside, the solution belongs to the scene: the same bits at the same times.
-    let speed = 0.01 * 2.0 * PI;
-    let mut scene = pendulum(&format!("initial_velocity = [{speed:?}]"), &wall(0.004));
-    scene.ground.record = Some("r.csv".into());
-    let record = record(0.02, &(0..200).map(|k| (f64::from(k) * 0.3).sin()).collect::<Vec<_>>());
-    let mut whole = Run::new(&scene, Some(&record));
-    whole.to(5.0);
-    for step in [1e-3, 0.01, 0.037, 0.25, 1.25] {
-        let mut split = Run::new(&scene, Some(&record));
-        let mut t = 0.0;
-        while t + step < 5.0 {
-            t += step;
-            split.to(t);
-        }
-        split.to(5.0);
-        assert_eq!(whole.bits(), split.bits(), "step {step}");
-        assert_eq!(whole.episodes, split.episodes, "step {step}");
-    }
-}
-
 /// Gap 0 and a ground motion that starts from nothing: the floors part, or press, at the fifth power of time.
 #[test]
 fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {

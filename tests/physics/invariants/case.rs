@@ -36,6 +36,8 @@ pub struct Case {
 pub enum Master {
     Held,
     Linear,
+    /// Now nothing, now held values, now linear ones.
+    Changing,
 }
 
 /// An output of the scene that a case was made from, and where it is now.
@@ -73,6 +75,8 @@ pub struct History {
     pub episodes: Vec<Episode>,
     /// Times at which storeys or links begin to yield or slip, or cease.
     pub switches: Vec<f64>,
+    /// When a storey has collapsed.
+    pub collapse: Option<f64>,
     pub counters: Counters,
 }
 
@@ -188,8 +192,13 @@ impl Case {
         for Driven { input, size, course } in &self.driven {
             let value = |point: usize| size * zigzag(point * (course + 1) + 5 * course) / 32.0;
             let rate = (value(point + 1) - value(point)) / (MASTER * self.units.time);
-            run.state.set_input(*input, value(point));
-            run.state.set_input_rate(*input, if master == Master::Linear { rate } else { 0.0 });
+            let (value, rate) = match (master, point / 30 % 3) {
+                (Master::Changing, 0) => (0.0, 0.0),
+                (Master::Held, _) | (Master::Changing, 1) => (value(point), 0.0),
+                _ => (value(point), rate),
+            };
+            run.state.set_input(*input, value);
+            run.state.set_input_rate(*input, rate);
         }
     }
 
@@ -244,7 +253,8 @@ impl Case {
     /// That of a run which has been read at these times.
     pub fn history_of(&self, run: &Run, times: Vec<f64>, readings: Vec<Vec<f64>>) -> History {
         let switches = run.state.switches().iter().map(|time| self.told_time(*time)).collect();
-        History { times, readings, episodes: self.episodes(run), switches, counters: run.state.counters() }
+        let collapse = run.model.collapse(&run.state).map(|collapse| self.told_time(collapse.time));
+        History { times, readings, episodes: self.episodes(run), switches, collapse, counters: run.state.counters() }
     }
 }
 

@@ -149,17 +149,25 @@ pub fn without_account(case: &Case) -> Option<Case> {
     Some(case)
 }
 
-/// With one more contact before all others, between these floors, counted from 1.
-pub fn with_contact(case: &Case, floors: (usize, usize), gap: f64, law: &str) -> Case {
+/// With one more contact as the first of all, or as the last, between these floors, counted from 1.
+pub fn with_contact(case: &Case, floors: (usize, usize), gap: f64, law: &str, is_first: bool) -> Case {
     let mut case = case.clone();
-    case.scene.contacts.insert(0, pair(floors, gap, law));
-    case.contacts.insert(0, None);
+    let place = if is_first { 0 } else { case.scene.contacts.len() };
+    case.scene.contacts.insert(place, pair(floors, gap, law));
+    case.contacts.insert(place, None);
     for shown in &mut case.shown {
-        if let Output::Contact(p, _) = &mut shown.of {
-            *p += 1;
+        match &mut shown.of {
+            Output::Contact(p, _) if is_first => *p += 1,
+            _ => {}
         }
     }
     case
+}
+
+/// Whether a contact of a law leaves every bit where it is out of reach: the first rigid one has a scene fly in other windows,
+/// which round otherwise.
+pub fn leaves_bits(scene: &Scene, law: &str) -> bool {
+    !law.contains("stereomechanical") || scene.contacts.iter().any(|pair| pair.law.is_rigid())
 }
 
 /// A contact between floors, counted from 1.

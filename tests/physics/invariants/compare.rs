@@ -17,11 +17,11 @@ pub struct Pair<'h> {
 }
 
 impl Pair<'_> {
-    /// Each output of the changed case with its place among those of the first.
-    fn outputs(&self) -> Vec<(&Shown, usize)> {
+    /// Each output of the changed case, with its place there and among those of the first.
+    fn outputs(&self) -> Vec<(usize, &Shown, usize)> {
         let places: HashMap<&str, usize> =
             self.case.shown.iter().enumerate().map(|(place, shown)| (shown.name.as_str(), place)).collect();
-        self.changed.shown.iter().map(|shown| (shown, places[shown.name.as_str()])).collect()
+        self.changed.shown.iter().enumerate().map(|(here, shown)| (here, shown, places[shown.name.as_str()])).collect()
     }
 
     /// The same bits of all outputs at all times, and of all episodes; but that a zero may have another sign.
@@ -29,7 +29,7 @@ impl Pair<'_> {
         let outputs = self.outputs();
         for ((time, one), other) in self.plain.times.iter().zip(&self.plain.readings).zip(&self.other.readings) {
             if self.changed.is_exact_at(*time) {
-                let one: Vec<f64> = outputs.iter().map(|(_, place)| one[*place] + 0.0).collect();
+                let one: Vec<f64> = outputs.iter().map(|(_, _, place)| one[*place] + 0.0).collect();
                 let other: Vec<f64> = other.iter().map(|other| other + 0.0).collect();
                 same_bits(&self.changed.shown, *time, &one, &other)?;
             }
@@ -47,17 +47,25 @@ impl Pair<'_> {
 
     /// The same but for so much, relative to the largest value of its kind: all outputs at all times, and all episodes.
     pub fn are_close(&self, allowed: f64) -> Result<(), String> {
-        let (outputs, sizes) = (self.outputs(), self.sizes());
+        let outputs = self.worst_of_outputs(|_| true);
+        let worst = self.worst_of_episodes()?.max(outputs);
+        if worst.error <= allowed { Ok(()) } else { Err(format!("off by {:.1e}: {}", worst.error, worst.what)) }
+    }
+
+    /// The worst of some outputs, relative to the largest value of its kind; a count or a flag that differs is off by infinity.
+    pub fn worst_of_outputs(&self, is_asked: impl Fn(&Shown) -> bool) -> Worst {
+        let (mut outputs, sizes, mut worst) = (self.outputs(), self.sizes(), Worst::default());
+        outputs.retain(|(_, shown, _)| is_asked(shown));
         for ((time, one), other) in self.plain.times.iter().zip(&self.plain.readings).zip(&self.other.readings) {
-            for ((shown, place), other) in outputs.iter().zip(other) {
-                let (one, size) = (one[*place], sizes[kind(&shown.name)]);
+            for (here, shown, place) in &outputs {
+                let (one, other) = (one[*place], other[*here]);
+                let is_real = shown.unit.is_some();
+                let size = if is_real { sizes[kind(&shown.name)] } else { f64::MIN_POSITIVE };
                 let error = (one - other).abs() / size;
-                if error > if shown.unit.is_some() { allowed } else { 0.0 } {
-                    return Err(format!("{} at {time} s: {one:e} and {other:e}, off by {error:.1e}", shown.name));
-                }
+                worst = worst.or(error, || format!("{} at {time} s: {one:e} and {other:e}", shown.name));
             }
         }
-        self.episodes_are_close(allowed)
+        worst
     }
 
     /// The largest magnitude of each kind of output.
@@ -74,38 +82,58 @@ impl Pair<'_> {
         sizes
     }
 
-    fn episodes_are_close(&self, allowed: f64) -> Result<(), String> {
+    /// The worst of all episodes, each relative to the largest value of its kind; an error, where there are others.
+    pub fn worst_of_episodes(&self) -> Result<Worst, String> {
         let largest =
             |of: fn(&Episode) -> f64| self.plain.episodes.iter().map(of).fold(f64::MIN_POSITIVE, |a, b| a.max(b.abs()));
-        let impulse = largest(|episode| episode.impulse);
-        let sizes: [(&str, fn(&Episode) -> f64, f64); 5] = [
-            ("start", |episode| episode.start, self.case.duration),
-            ("approach velocity", |episode| episode.approach_velocity, largest(|episode| episode.approach_velocity)),
-            ("peak force", |episode| episode.peak_force, largest(|episode| episode.peak_force)),
-            ("impulse", |episode| episode.impulse, impulse),
-            ("dissipated energy", |episode| episode.dissipated_energy, largest(|episode| episode.dissipated_energy)),
+        let parts: [(&str, fn(&Episode) -> f64); 4] = [
+            ("approach velocity", |episode| episode.approach_velocity),
+            ("peak force", |episode| episode.peak_force),
+            ("impulse", |episode| episode.impulse),
+            ("dissipated energy", |episode| episode.dissipated_energy),
         ];
+        let mut worst = Worst::default();
         for contact in 0..self.case.scene.contacts.len() {
-            let listed = |history: &History| {
-                let is_listed = |e: &&Episode| e.contact == contact && e.impulse.abs() > NEGLIGIBLE * impulse;
-                let mut listed: Vec<Episode> = history.episodes.iter().filter(is_listed).copied().collect();
-                listed.sort_by(|a, b| a.start.total_cmp(&b.start));
-                listed
-            };
-            let (one, other) = (listed(self.plain), listed(self.other));
+            let [one, other] = [self.plain, self.other].map(|history| self.listed(history, contact));
             if one.len() != other.len() {
                 return Err(format!("contact {}: {} and {} episodes", contact + 1, one.len(), other.len()));
             }
             for (one, other) in one.iter().zip(&other) {
-                let off =
-                    |(_, of, size): &&(&str, fn(&Episode) -> f64, f64)| (of(one) - of(other)).abs() > allowed * size;
-                if let Some((what, of, size)) = sizes.iter().find(off) {
-                    let error = (of(one) - of(other)).abs() / size;
-                    return Err(format!("{what} of an episode, off by {error:.1e}: {one:?} and {other:?}"));
+                let told = |what: &str| format!("{what} of {one:?}, and {other:?}");
+                worst = worst.or((one.start - other.start).abs() / self.case.duration, || told("start"));
+                for (what, of) in parts {
+                    worst = worst.or((of(one) - of(other)).abs() / largest(of), || told(what));
                 }
             }
         }
-        Ok(())
+        Ok(worst)
+    }
+
+    /// The episodes of a contact that count, in the order in which they begin.
+    fn listed(&self, history: &History, contact: usize) -> Vec<Episode> {
+        let impulse = self.plain.episodes.iter().fold(0.0, |largest: f64, episode| largest.max(episode.impulse.abs()));
+        let counts = |episode: &&Episode| episode.contact == contact && episode.impulse.abs() > NEGLIGIBLE * impulse;
+        let mut listed: Vec<Episode> = history.episodes.iter().filter(counts).copied().collect();
+        listed.sort_by(|a, b| a.start.total_cmp(&b.start));
+        listed
+    }
+}
+
+/// The largest difference, and of what it is.
+#[derive(Default)]
+pub struct Worst {
+    pub error: f64,
+    pub what: String,
+}
+
+impl Worst {
+    /// NaN is worse than all.
+    fn or(self, error: f64, what: impl FnOnce() -> String) -> Worst {
+        if error <= self.error { self } else { Worst { error, what: what() } }
+    }
+
+    fn max(self, other: Worst) -> Worst {
+        if other.error <= self.error { self } else { other }
     }
 }
 

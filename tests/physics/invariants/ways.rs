@@ -5,16 +5,23 @@ use super::case::{Case, MASTER};
 use super::compare::{same_bits, same_episodes};
 use super::scenes::Row;
 use crate::common::Run;
+use crate::peaks_whenever::Sequence;
 use pounding::engine::{SavedState, Side};
 
 /// Events of a run at which it is looked at closely.
-const EVENTS: usize = 5;
+const EVENTS: usize = 6;
 
-/// Goes to the end at once.
+/// Goes to the end at once, and to some of the readings, each for the first time.
 pub fn unread(row: &Row) -> Result<(), String> {
     let mut run = row.case.run();
     row.case.go(&mut run, row.end());
-    ends_alike(row, &mut run)
+    ends_alike(row, &mut run)?;
+    for (reading, time) in row.plain().times.iter().enumerate().step_by(5) {
+        let mut run = row.case.run();
+        row.case.go(&mut run, *time);
+        is_alike(row, &mut run, reading)?;
+    }
+    Ok(())
 }
 
 /// That a run at the end shows what the plain one shows there, has had the same episodes and taken the same steps.
@@ -49,7 +56,7 @@ pub fn at_events(row: &Row) -> Option<Result<(), String>> {
 }
 
 /// Goes through these times in their order, and the readings of the plain run.
-fn through(row: &Row, mut points: Vec<f64>) -> Option<Result<(), String>> {
+pub fn through(row: &Row, mut points: Vec<f64>) -> Option<Result<(), String>> {
     if row.case.master.is_some() {
         return None;
     }
@@ -69,14 +76,15 @@ fn through(row: &Row, mut points: Vec<f64>) -> Option<Result<(), String>> {
     Some(ends_alike(row, &mut run))
 }
 
-/// Some events of the plain run, spread over it: beginnings and ends of contacts, yields and slips.
+/// Some events of the plain run, spread over it: beginnings and ends of contacts, yields and slips; and a collapse.
 fn events(row: &Row) -> Vec<f64> {
     let plain = row.plain();
     let ends = plain.episodes.iter().flat_map(|episode| [Some(episode.start), episode.end]).flatten();
     let mut all: Vec<f64> = ends.chain(plain.switches.iter().copied()).filter(|time| *time > 0.0).collect();
     all.sort_by(f64::total_cmp);
     all.dedup();
-    (0..EVENTS.min(all.len())).map(|k| all[k * all.len() / EVENTS.min(all.len())]).collect()
+    let some = (0..EVENTS.min(all.len())).map(|k| all[k * all.len() / EVENTS.min(all.len())]);
+    some.chain(plain.collapse).collect()
 }
 
 /// Where states are saved: at some readings, and at events where no master makes the steps.
@@ -114,28 +122,42 @@ fn through_bytes(saved: &SavedState) -> SavedState {
     postcard::from_bytes(&postcard::to_allocvec(saved).unwrap()).unwrap()
 }
 
-/// A copy of the state goes on, is read in turn with it, and both end alike; a state is taken back to where it was saved.
+/// Reads, saves, goes on in a copy or goes ahead and back, as a sequence of random numbers says, from milliseconds to a second
+/// apart.
 pub fn copied_and_taken_back(row: &Row) -> Result<(), String> {
-    let mut run = row.case.run();
-    for (k, time) in points(row).into_iter().enumerate() {
-        row.case.go(&mut run, time);
-        let (before, episodes) = (row.case.read(&mut run), run.episodes.clone());
-        let ahead = if k % 3 == 0 { row.end() } else { f64::min(time + 0.5, row.end()) };
-        if k % 2 == 0 {
-            let here = run.state.clone();
-            row.case.go(&mut run, ahead);
-            row.case.read(&mut run);
-            run.state = here;
-        } else {
-            let saved = run.save();
-            row.case.go(&mut run, ahead);
-            run.model.restore(&saved, &mut run.state);
+    let grid = if row.case.master.is_some() { MASTER } else { 1.0 / 8192.0 };
+    let rounded = |time: f64| f64::min((time / grid).ceil() * grid, row.end());
+    for seed in 0..3 {
+        let (mut sequence, mut run, mut time) = (Sequence(seed), row.case.run(), 0.0);
+        while time < row.end() {
+            time = rounded(time + 10.0_f64.powf(3.0 * sequence.next() - 3.0));
+            row.case.go(&mut run, time);
+            let ahead = rounded(time + 0.7 * sequence.next());
+            match (5.0 * sequence.next()) as u32 {
+                0 => drop(row.case.read(&mut run)),
+                1 => drop(run.save()),
+                2 => go_and_come_back(row, &mut run, ahead, true)?,
+                3 => go_and_come_back(row, &mut run, ahead, false)?,
+                _ => {}
+            }
         }
-        run.episodes = episodes;
-        same_bits(&row.case.shown, time, &before, &row.case.read(&mut run))?;
+        ends_alike(row, &mut run).map_err(|wrong| format!("seed {seed}: {wrong}"))?;
     }
-    row.case.go(&mut run, row.end());
-    ends_alike(row, &mut run)
+    Ok(())
+}
+
+/// Goes ahead from a state that is saved, or in a copy of it, is read there, and comes back to the same.
+fn go_and_come_back(row: &Row, run: &mut Run, ahead: f64, is_saved: bool) -> Result<(), String> {
+    let (time, before, episodes) = (run.state.time(), row.case.read(run), run.episodes.clone());
+    let (saved, here) = (is_saved.then(|| run.save()), run.state.clone());
+    row.case.go(run, ahead);
+    row.case.read(run);
+    match saved {
+        Some(saved) => run.model.restore(&saved, &mut run.state),
+        None => run.state = here,
+    }
+    run.episodes = episodes;
+    same_bits(&row.case.shown, time, &before, &row.case.read(run))
 }
 
 /// How near the lowest floor on the left and the highest on the right come to each other, m, between which nothing is; `None`

@@ -1,7 +1,7 @@
 //! Random scenes: two frames that face each other at some floors, shaken for two seconds.
 
 use crate::common::problems::laws::contact;
-use crate::common::{Run, record, scene};
+use crate::common::{record, scene};
 use crate::random_frames::frame;
 use pounding::record::Record;
 use pounding::scene::Scene;
@@ -22,12 +22,6 @@ impl std::fmt::Debug for Case {
 }
 
 impl Case {
-    pub fn run(&self) -> Run {
-        let mut run = Run::new(&self.scene, Some(&self.record));
-        run.to(self.record.times[0] + self.duration());
-        run
-    }
-
     pub fn duration(&self) -> f64 {
         self.record.times[self.record.times.len() - 1] - self.record.times[0]
     }
