@@ -2,7 +2,7 @@
 
 use super::case::{Case, Units};
 use crate::common::problems::laws::contact;
-use pounding::engine::{FoundationOutput as F, LinkOutput as L, Output, PeakOf, Side, YieldingOf as Y};
+use pounding::engine::{FoundationOutput as F, Input, LinkOutput as L, Output, PeakOf, Side, YieldingOf as Y};
 use pounding::record::STANDARD_GRAVITY;
 use pounding::scene::{
     Building, ContactPair, Damping, Face, Foundation, Link, PDelta, Scaling, Scene, Slip, Stiffness,
@@ -26,7 +26,7 @@ pub fn mirrored(case: &Case) -> Case {
         shown.of = on_the_other_side(shown.of);
     }
     for driven in &mut case.driven {
-        if let pounding::engine::Input::Force(side, _) = &mut driven.input {
+        if let Input::Force(side, _) = &mut driven.input {
             *side = side.opposite();
         }
     }
@@ -202,7 +202,7 @@ pub fn in_units(case: &Case, units: Units) -> Case {
         record.accelerations.iter_mut().for_each(|a| *a *= units.acceleration());
     }
     for driven in &mut case.driven {
-        let is_force = matches!(driven.input, pounding::engine::Input::Force(..));
+        let is_force = matches!(driven.input, Input::Force(..));
         driven.size *= if is_force { units.force() } else { units.acceleration() };
     }
     case.start *= units.time;

@@ -86,7 +86,7 @@ impl Pair<'_> {
     pub fn worst_of_episodes(&self) -> Result<Worst, String> {
         let largest =
             |of: fn(&Episode) -> f64| self.plain.episodes.iter().map(of).fold(f64::MIN_POSITIVE, |a, b| a.max(b.abs()));
-        let parts: [(&str, fn(&Episode) -> f64); 4] = [
+        let parts: [Part; 4] = [
             ("approach velocity", |episode| episode.approach_velocity),
             ("peak force", |episode| episode.peak_force),
             ("impulse", |episode| episode.impulse),
@@ -118,6 +118,9 @@ impl Pair<'_> {
         listed
     }
 }
+
+/// A quantity of an episode, and its name.
+type Part = (&'static str, fn(&Episode) -> f64);
 
 /// The largest difference, and of what it is.
 #[derive(Default)]

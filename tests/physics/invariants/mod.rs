@@ -10,6 +10,8 @@ pub mod ways;
 use case::{Case, Units};
 use compare::Pair;
 use scenes::Row;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What a change leaves of a motion.
 #[derive(Clone, Copy, PartialEq)]
@@ -20,14 +22,23 @@ enum Leaves {
     Rounding,
 }
 
-/// Tries each scene, and tells all those that fail.
+/// Tries each scene, and tells all those that fail, also by a panic.
 fn try_each(what: &str, least: usize, of: impl Fn(&Row) -> Option<Result<(), String>>) {
-    let tried: Vec<(&str, Result<(), String>)> =
-        scenes::ALL.iter().filter_map(|row| Some((row.name, of(row)?))).collect();
-    let failed: Vec<String> =
-        tried.iter().filter_map(|(name, tried)| Some(format!("{name} x {what}: {}", tried.as_ref().err()?))).collect();
-    assert!(failed.is_empty(), "{} of {} scenes:\n{}", failed.len(), tried.len(), failed.join("\n"));
-    assert!(tried.len() >= least, "{what}: tried with {} scenes only", tried.len());
+    let (mut tried, mut failed) = (0, Vec::new());
+    for row in scenes::ALL.iter() {
+        let result = catch_unwind(AssertUnwindSafe(|| of(row))).unwrap_or_else(|panic| Some(Err(message(&*panic))));
+        tried += usize::from(result.is_some());
+        if let Some(Err(wrong)) = result {
+            failed.push(format!("{} x {what}: {wrong}", row.name));
+        }
+    }
+    assert!(failed.is_empty(), "{} of {tried} scenes:\n{}", failed.len(), failed.join("\n"));
+    assert!(tried >= least, "{what}: tried with {tried} scenes only");
+}
+
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
 /// Each scene under a change that leaves so much of it.
