@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Prints a table: milliseconds for 20 s of El Centro in communication steps of 0.01 s, and quotients. The errors of such runs
-//! are those of `tests/links/` and `tests/soil/`: 1e-12 and below.
+//! are those of `tests/physics/links/` and `tests/physics/soil/`: 1e-12 and below.
 
 use pounding::engine::{EnergyOutput, Model, Output, PeakOf, Point, Side};
 use pounding::scene::Package;

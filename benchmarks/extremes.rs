@@ -8,12 +8,12 @@
 
 #[path = "../tests/common/mod.rs"]
 mod common;
-#[path = "../tests/stress/elastic.rs"]
+#[path = "../tests/physics/stress/elastic.rs"]
 #[allow(dead_code, unused_imports, clippy::unwrap_used)]
 mod elastic;
-#[path = "../tests/stress/extremes.rs"]
+#[path = "../tests/physics/stress/extremes.rs"]
 mod extremes;
-#[path = "../tests/stress/hour.rs"]
+#[path = "../tests/physics/stress/hour.rs"]
 #[allow(dead_code, clippy::unwrap_used)]
 mod hour;
 

@@ -18,7 +18,7 @@ from releasing.places import ROOT, WORK
 from releasing.platforms import LINUX
 
 FOLDER = WORK / "runs/cases"
-SCENES = ("examples", "tests/reference/scenes", "tests/stress", "ci/scenes")
+SCENES = ("examples", "tests/reference/scenes", "tests/physics/stress", "ci/scenes")
 # Those of which an FMU of FMI 3.0 runs too: linear, yielding, falling, driven, with impulses.
 FMI3 = (
     "examples-scenes-feup",

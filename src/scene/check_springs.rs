@@ -1,7 +1,7 @@
 //! Springs of links and soil beside which nothing would be left of the storeys.
 //!
 //! Entries of a body's stiffness matrix are sums of its springs: one that is 1e16 times as stiff as a storey leaves no digit
-//! of that. At the limit here frequencies are exact to rounding (`tests/soil/closed_forms.rs`).
+//! of that. At the limit here frequencies are exact to rounding (`tests/physics/soil/closed_forms.rs`).
 
 use super::checker::Checker;
 use super::data::{Building, Scene, Stiffness};

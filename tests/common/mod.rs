@@ -76,10 +76,16 @@ impl Run {
         Run { model, state, point: Point::default(), episodes: Vec::new(), yielding, leaning }
     }
 
-    /// Advances to a time and reads it.
-    pub fn to(&mut self, time: f64) -> &mut Run {
+    /// Advances to a time and reads nothing.
+    pub fn go(&mut self, time: f64) -> &mut Run {
         let episodes = &mut self.episodes;
         self.model.advance(&mut self.state, time, &mut |episode| episodes.push(*episode)).unwrap();
+        self
+    }
+
+    /// Advances to a time and reads it.
+    pub fn to(&mut self, time: f64) -> &mut Run {
+        self.go(time);
         self.model.observe(&self.state, &mut self.point);
         self
     }

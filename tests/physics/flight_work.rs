@@ -132,13 +132,18 @@ fn coupled() -> Vec<Structure> {
 }
 
 /// The motion after `time` seconds.
-fn fly(structure: &Structure, start: &State, (a, s): (f64, f64), time: f64) -> State {
+fn fly(structure: &Structure, start: &State, load: (f64, f64), time: f64) -> State {
+    fly_over(&Interval::new(structure, time), structure, start, load)
+}
+
+/// The motion after an interval.
+fn fly_over(interval: &Interval, structure: &Structure, start: &State, (a, s): (f64, f64)) -> State {
     let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
     let load = [a, s].map(|size: f64| structure.participation.iter().map(|p| -p * size).collect::<Vec<_>>());
     let mut scratch = Scratch::new(structure.lanes);
     let load = LinearLoad { load: &load[0], slope: &load[1] };
     let (start, end) = (Motion { q: &start[0], v: &start[1] }, MotionMut { q: &mut q, v: &mut v });
-    Interval::new(structure, time).fly(start, load, end, &mut scratch);
+    interval.fly(start, load, end, &mut scratch);
     [q, v]
 }
 
@@ -198,13 +203,14 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
 fn work_of_dashpots(structure: &Structure, start: &State, (a, s): (f64, f64), length: f64) -> Vec<f64> {
     const HALVINGS: usize = 8;
     let h = length / f64::from(1 << HALVINGS);
+    let interval = Interval::new(structure, h);
     let mut motion = start.clone();
     let mut powers = vec![Vec::new(); structure.links.len()];
     for k in 0..=1 << HALVINGS {
         for (link, powers) in structure.links.iter().zip(&mut powers) {
             powers.push(link.dashpot * dot(&link.row, &motion[1]).powi(2));
         }
-        motion = fly(structure, &motion, (a + s * h * f64::from(k), s), h);
+        motion = fly_over(&interval, structure, &motion, (a + s * h * f64::from(k), s));
     }
     let romberg = |powers: &Vec<f64>| {
         let trapezoids = |halvings: usize| {

@@ -1,4 +1,6 @@
-//! Does the engine compute the right motion? Against closed forms, integrations in 40 and 60 digits, and enumerations.
+//! Does the engine compute the right motion? Against closed forms, integrations in 40 and 60 digits, enumerations, an
+//! independent program in quadruple precision, and the same run told in another way. One program, as each links the
+//! whole crate; folders are its rooms: `cargo test --test physics soil::`.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bilinear;
@@ -6,9 +8,14 @@ mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
 mod dying_out;
+mod events;
 mod flight_work;
+mod golden;
+mod golden_yielding;
 mod impacts;
+mod invariants;
 mod linear_inputs;
+mod links;
 mod many_storeys;
 mod p_delta;
 mod p_delta_collapse;
@@ -17,14 +24,21 @@ mod peaks;
 mod peaks_whenever;
 mod piecewise;
 mod propagator;
+#[path = "../problems/random_frames.rs"]
+mod random_frames;
+mod random_scenes;
+#[path = "../problems/random_soil.rs"]
+mod random_soil;
 mod rates;
 mod read_peaks;
-mod row_symmetry;
 mod rows;
+mod same_contacts;
 mod shared_floors;
 mod simultaneous_impacts;
 mod slipping_links;
+mod soil;
 mod stereomechanical;
+mod stress;
 mod structure;
 mod tall_buildings;
 mod tension;

@@ -1,5 +1,4 @@
-//! Storeys that fall: where the run ends, that it ends there whatever else happens at that time, and that it goes on to the same
-//! bits from wherever it has been saved.
+//! Storeys that fall: where the run ends, and that it ends there whatever else happens at that time.
 
 use crate::common::peaks::Watch;
 use crate::common::problems::frames::zigzag;
@@ -202,82 +201,6 @@ fn a_neighbour_pushes_back_what_would_fall() {
     run.to(20.0);
     assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
     assert!(run.peak(PeakOf::Displacement(Side::Left, 0)) >= drift);
-}
-
-/// Saved while it falls and afterwards, and restored in another state.
-#[test]
-fn a_fall_goes_on_from_where_it_was_saved() {
-    let (scene, record) = frames(CONTACT);
-    let mut run = Run::new(&scene, Some(&record));
-    let expected = seen(run.to(20.0));
-    let end = collapse(&run).time;
-    for before in [1.0, 0.3, 0.1, 1e-3, 1e-9, 0.0, -1.0] {
-        let mut run = Run::new(&scene, Some(&record));
-        run.to(end - before);
-        let (saved, now) = (run.save(), seen(&run));
-        run.model.check_saved(&saved).unwrap();
-        let mut other = Run::new(&scene, Some(&record));
-        other.to(0.5 * end);
-        other.model.restore(&saved, &mut other.state);
-        other.model.observe(&other.state, &mut other.point);
-        assert!(seen(&other) == now, "{before} s before the fall");
-        assert!(seen(other.to(20.0)) == expected, "from {before} s before the fall");
-        assert!(seen(run.to(20.0)) == expected, "on from {before} s before the fall");
-        // Back from the end.
-        other.model.restore(&saved, &mut other.state);
-        assert!(seen(other.to(20.0)) == expected, "again from {before} s before the fall");
-    }
-}
-
-/// Whatever the communication steps are, down to a nanosecond, the bits and the last time are the same.
-#[test]
-fn communication_steps_change_no_fall() {
-    for contacts in ["", CONTACT] {
-        let (scene, record) = frames(contacts);
-        let mut run = Run::new(&scene, Some(&record));
-        let expected = seen(run.to(20.0));
-        let end = collapse(&run).time;
-        assert!(contacts.is_empty() || run.point.impacts > 0);
-        for step in [0.37, 0.05, 1e-3] {
-            let mut run = Run::new(&scene, Some(&record));
-            assert!(seen(run.in_steps(step, 20.0)) == expected, "{step} s");
-        }
-        let mut run = Run::new(&scene, Some(&record));
-        run.to(end - 1e-7).in_steps(1e-9, end + 1e-7);
-        assert!(seen(&run) == expected, "steps of 1e-9 s: {:?}, {end}", run.model.collapse(&run.state));
-    }
-}
-
-/// A building alone that is shaken the other way falls to the other side, with the same bits.
-#[test]
-fn shaken_the_other_way_it_falls_to_the_other_side() {
-    let (scene, record) = frames("");
-    let mut turned = record.clone();
-    turned.accelerations.iter_mut().for_each(|value| *value = -*value);
-    let (mut here, mut there) = (Run::new(&scene, Some(&record)), Run::new(&scene, Some(&turned)));
-    for k in 1..=400 {
-        let time = 0.05 * f64::from(k);
-        here.to(time);
-        there.to(time);
-        for floor in 0..2 {
-            let [one, other] = [&here, &there].map(|run| run.displacement(Side::Left, floor));
-            assert_eq!(one, -other, "{time} s");
-        }
-    }
-    assert_eq!(collapse(&here), collapse(&there));
-    // Left and right exchanged as well, with contacts: sums over the floors are made in another order.
-    let (scene, record) = frames(CONTACT);
-    let mut mirrored = scene.clone();
-    std::mem::swap(&mut mirrored.left, &mut mirrored.right);
-    let (mut here, mut there) = (Run::new(&scene, Some(&record)), Run::new(&mirrored, Some(&turned)));
-    let ends = [&mut here, &mut there].map(|run| collapse(run.to(20.0)));
-    assert_eq!((ends[0].side, ends[0].storey), (ends[1].side.opposite(), ends[1].storey));
-    assert!((ends[0].time - ends[1].time).abs() < 1e-12, "{ends:?}");
-    for floor in 0..2 {
-        let [one, other] =
-            [(&here, Side::Left), (&there, Side::Right)].map(|(run, side)| run.displacement(side, floor));
-        assert!((one + other).abs() < 1e-11, "{one:e}, {other:e}");
-    }
 }
 
 /// No reading is beyond a peak while a storey falls, and the peaks at the end are those of the fall.

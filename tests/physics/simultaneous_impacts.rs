@@ -1,10 +1,9 @@
-//! Several stereomechanical pairs at once, each on floors of its own, and scenes with a symmetry.
+//! Several stereomechanical pairs at once, each on floors of its own, and a scene with a symmetry.
 
 use crate::bodies::{Bodies, assert_same, velocities};
 use crate::common::{Run, assert_close, scene};
 use pounding::engine::Side;
-use pounding::record::Record;
-use pounding::scene::{self, Scene};
+use pounding::scene;
 use std::path::Path;
 
 #[test]
@@ -56,53 +55,6 @@ fn a_symmetric_situation_stays_symmetric() {
     assert_close(open[0].start, end, 1e-12, "end of the rebounds");
     assert_close(open[1].start, end, 1e-12, "end of the rebounds");
     assert_close(run.contact(0).force, 6.0 * 2.0 / 9.0, 1e-14, "reaction");
-}
-
-/// The scene of the golden run of rebounds and sustained contacts, and its record.
-fn touching_frames() -> (Scene, Record) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/feup_stereomechanical_touching.toml");
-    let (scene, record) = scene::load(&path).unwrap();
-    (scene, record.unwrap())
-}
-
-/// Displacements over 6 s, left floors then right floors, time by time.
-fn motion(scene: &Scene, record: &Record) -> Vec<f64> {
-    let mut run = Run::new(scene, Some(record));
-    let mut motion = Vec::new();
-    for k in 1..=60 {
-        run.to(0.1 * f64::from(k));
-        for side in [Side::Left, Side::Right] {
-            motion.extend((0..run.model.floors(side)).map(|floor| run.displacement(side, floor)));
-        }
-    }
-    assert!(run.point.impacts > 100, "contacts take part in it: {} impacts", run.point.impacts);
-    motion
-}
-
-#[test]
-fn the_order_of_contacts_in_the_file_does_not_matter() {
-    let (mut scene, record) = touching_frames();
-    let first = motion(&scene, &record);
-    scene.contacts.reverse();
-    let size = first.iter().fold(0.0, |a: f64, u| a.max(u.abs()));
-    for (a, b) in first.iter().zip(motion(&scene, &record)) {
-        assert!((a - b).abs() < 1e-13 * size, "{a} and {b}");
-    }
-}
-
-#[test]
-fn an_earthquake_in_a_mirror_gives_the_motion_in_a_mirror() {
-    let (scene, record) = touching_frames();
-    let first = motion(&scene, &record);
-    let mut mirrored = scene;
-    std::mem::swap(&mut mirrored.left, &mut mirrored.right);
-    let accelerations = record.accelerations.iter().map(|a| -a).collect();
-    let second = motion(&mirrored, &Record { times: record.times.clone(), accelerations });
-    let size = first.iter().fold(0.0, |a: f64, u| a.max(u.abs()));
-    for (a, b) in first.chunks(5).zip(second.chunks(5)) {
-        let back: Vec<f64> = b[3..].iter().chain(&b[..3]).map(|u| -u).collect();
-        assert!(a.iter().zip(&back).all(|(a, b)| (a - b).abs() < 1e-13 * size), "{a:?} and {back:?}");
-    }
 }
 
 /// 20 and 30 storeys, twenty pairs, an earthquake: floors never overlap, contacts never pull, energy never grows.

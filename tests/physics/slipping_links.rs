@@ -268,35 +268,6 @@ fn rates_are_differences() {
     }
 }
 
-/// The same bits in other communication steps, and from a state saved on the way, also while springs slip.
-#[test]
-fn steps_and_saved_states_do_not_matter() {
-    let (scene, record) = (frames(), shaking(0.25));
-    let seen = |run: &Run| {
-        let of_links = (0..2).flat_map(|l| {
-            [LinkOutput::Force, LinkOutput::Slip, LinkOutput::SlipTravel]
-                .map(|of| run.read(Output::Link(l, of)).to_bits())
-        });
-        run.bits().into_iter().chain(of_links).collect::<Vec<_>>()
-    };
-    let mut whole = Run::new(&scene, Some(&record));
-    whole.to(5.0);
-    let (mut run, mut other, mut slipping) = (Run::new(&scene, Some(&record)), Run::new(&scene, Some(&record)), 0);
-    for k in 1..=500 {
-        run.to(0.01 * f64::from(k));
-        slipping += i32::from(run.read(Output::Link(0, LinkOutput::Slipping)) != 0.0);
-        if k % 25 == 0 {
-            let saved = run.save();
-            other.model.check_saved(&saved).unwrap();
-            other.model.restore(&saved, &mut other.state);
-            other.to(5.0);
-            assert!(seen(&other) == seen(&whole), "saved at {k}");
-        }
-    }
-    assert!(seen(&run) == seen(&whole));
-    assert!(slipping > 30, "{slipping} of 500 times");
-}
-
 /// A spring that has gone further than it can without slipping, as its slip force is that of another scene.
 #[test]
 fn links_in_states_that_they_cannot_have_are_refused() {

@@ -290,19 +290,3 @@ fn pressure_that_grows_from_nothing_under_a_record() {
     run.to(0.25);
     assert_eq!(run.contact(0).impacts, 0);
 }
-
-#[test]
-fn a_state_saved_among_dying_rebounds_and_in_sustained_contact_goes_on_with_the_same_bits() {
-    for time in [0.4, 0.5, 1.4] {
-        let bodies = [Mass::free(5.0, 0.3), Mass::free(3.0, 0.0)];
-        let mut run = Run::new(&pair(bodies[0], bodies[1], 0.02, 0.5), None);
-        run.state.set_floor_force(Side::Left, 0, 3.5);
-        run.to(time);
-        let saved = run.state.clone();
-        run.to(2.0);
-        let first = run.bits();
-        run.state = saved;
-        run.to(2.0);
-        assert_eq!(first, run.bits(), "saved at {time} s");
-    }
-}

@@ -99,20 +99,6 @@ fn fresh_contacts_last_from_sample_to_sample() {
     }
 }
 
-/// Communication points within windows, at their ends but for rounding, and none at all.
-#[test]
-fn a_window_does_not_depend_on_where_it_is_read() {
-    let (scene, record) = towers([50, 40], &[(40, HERTZ)], WITHOUT_PEAKS);
-    let ends = [8.0, 0.01, 0.0037].map(|step| {
-        let mut run = Run::new(&scene, Some(&record));
-        run.in_steps(step, 7.0);
-        (run.bits(), run.state.counters())
-    });
-    assert!(ends[0].1.contact_steps > 50, "{:?}", ends[0].1);
-    assert_eq!(ends[0], ends[1]);
-    assert_eq!(ends[0], ends[2]);
-}
-
 /// What is read a rounding error beside a sample is what is read at the sample.
 #[test]
 fn a_window_is_continuous_at_its_ends() {

@@ -3,7 +3,7 @@
 use crate::numerics::polynomial::MAX_ORDER;
 
 /// Share of `relative_tolerance` for one step: an episode takes some thirty steps and an earthquake some hundred
-/// episodes, whose errors add up. With this share the golden scenes of `tests/golden.rs` come out within
+/// episodes, whose errors add up. With this share the golden scenes of `tests/physics/golden.rs` come out within
 /// `relative_tolerance`; with ten times as much, `hertz` is ten times less accurate for hardly fewer steps.
 const STEP_SHARE: f64 = 0.002;
 

@@ -14,6 +14,9 @@ use pounding::record::Record;
 use pounding::scene::Scene;
 use system::{Places, Storey, System};
 
+/// Up to so many steps of one length a matrix of them is not worth its while.
+const FEW_STEPS: u32 = 32;
+
 /// The motion and all that is remembered of it.
 pub struct Piecewise<'r> {
     system: System,
@@ -185,8 +188,13 @@ impl Piecewise<'_> {
             // Equal steps: in a sum of a million rounded ones the time would be off by more than they make of the motion.
             let (start, count) = (self.time, ((end - self.time) / self.step).ceil() as u32);
             let step = (end - start) / f64::from(count);
+            // One product for each of many steps in place of a series.
+            let leap = (count > FEW_STEPS).then(|| leap(&matrix, step));
             for k in 1..=count {
-                let after = exponential(&matrix, &self.y, step);
+                let after = match &leap {
+                    Some(leap) => &self.y + leap * &self.y,
+                    None => exponential(&matrix, &self.y, step),
+                };
                 if let Some((t, event)) = self.first_event(&matrix, &after, step) {
                     self.y = exponential(&matrix, &self.y, t);
                     self.time += t;
@@ -198,6 +206,20 @@ impl Piecewise<'_> {
             }
         }
     }
+}
+
+/// exp(A t) - 1, which is small: its rounding, the same in a million steps, is next to nothing of the motion.
+fn leap(matrix: &DMatrix<f64>, t: f64) -> DMatrix<f64> {
+    let mut term = matrix * t;
+    let mut sum = term.clone();
+    for k in 2..60 {
+        term = matrix * term * (t / f64::from(k));
+        sum += &term;
+        if term.iter().zip(&sum).all(|(term, sum)| term.abs() <= 1e-18 * sum.abs()) {
+            break;
+        }
+    }
+    sum
 }
 
 /// exp(A t) y.
