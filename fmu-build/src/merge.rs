@@ -103,9 +103,8 @@ fn wrong_libraries(description: &str, libraries: &[Entry]) -> Vec<String> {
         return vec![format!("{DESCRIPTION} has no co-simulation interface with a modelIdentifier")];
     };
     // It has company in the merged FMU.
-    let inspect = |library: &Entry| {
-        inspection::inspect(&library.path, &library.bytes, &identifier, version(description), false)
-    };
+    let inspect =
+        |library: &Entry| inspection::inspect(&library.path, &library.bytes, &identifier, version(description), false);
     let findings = libraries.iter().map(inspect);
     findings.flat_map(|findings| [findings.library, findings.functions].concat()).collect()
 }

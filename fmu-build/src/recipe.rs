@@ -76,8 +76,7 @@ fn libraries(home: Home, arguments: &BuildArguments, line: &Line) -> Result<Vec<
         None => home.libraries,
     };
     line.work(source.work());
-    let mut libraries =
-        source.get(arguments.fmi, &arguments.platforms, &mut |state| line.state(state))?;
+    let mut libraries = source.get(arguments.fmi, &arguments.platforms, &mut |state| line.state(state))?;
     if arguments.arm_in_linux64 {
         move_arm_for_fmpy(&mut libraries)?;
     }

@@ -10,6 +10,7 @@ mod robustness;
 #[path = "../problems/two_and_three_storeys.rs"]
 mod two_and_three_storeys;
 mod units;
+mod warnings;
 
 use pounding::scene::Scene;
 use two_and_three_storeys::WITHOUT_REPETITION as SCENE;

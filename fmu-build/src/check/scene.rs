@@ -1,7 +1,7 @@
 //! The description of an FMU beside that of the scene inside it, which is written anew: any difference is a finding.
 
-use crate::sight::version;
 use crate::archive::Unpacked;
+use crate::sight::version;
 use pounding::description::{Package, TOOL, guid_of};
 use roxmltree::{Attribute, Document, Node};
 use std::collections::HashMap;

@@ -2,8 +2,8 @@
 
 use super::{OFFICES, Slip, edited, expect, found, paths};
 
-const YIELDING: &str = include_str!("../../examples/scenes/yielding.toml");
-const ISOLATED: &str = include_str!("../../examples/scenes/isolated.toml");
+const YIELDING: &str = include_str!("../../../examples/scenes/yielding.toml");
+const ISOLATED: &str = include_str!("../../../examples/scenes/isolated.toml");
 const FORCES: &str = "[1490, 1330, 1010, 530]";
 /// Of [`OFFICES`], in SI units.
 const STIFFNESS: &str = "stiffness = [300e6, 300e6, 300e6, 300e6, 300e6]";

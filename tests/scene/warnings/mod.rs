@@ -1,5 +1,4 @@
 //! Slips are told, sound scenes are not: what `pounding::warnings` finds in scenes that are all allowed.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod buildings;
 mod gravity;
@@ -15,10 +14,10 @@ use pounding::warnings::{self, Warning};
 use std::fs;
 use std::path::PathBuf;
 
-const FEUP: &str = include_str!("../../examples/scenes/feup.toml");
-const OFFICES: &str = include_str!("../problems/offices_pair_by_pair.toml");
-const ISOLATED: &str = include_str!("../problems/isolated_beside_a_stiff_mass.toml");
-const FILIATRAULT: &str = include_str!("../../examples/paper/scenes/filiatrault.toml");
+const FEUP: &str = include_str!("../../../examples/scenes/feup.toml");
+const OFFICES: &str = include_str!("../../problems/offices_pair_by_pair.toml");
+const ISOLATED: &str = include_str!("../../problems/isolated_beside_a_stiff_mass.toml");
+const FILIATRAULT: &str = include_str!("../../../examples/paper/scenes/filiatrault.toml");
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

@@ -1,6 +1,6 @@
 //! Floors that are not level, and what is odd about the contacts of `[facing]`.
 
-use crate::{found, paths};
+use super::{found, paths};
 use pounding::scene::Scene;
 use pounding::warnings;
 

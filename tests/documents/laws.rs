@@ -1,14 +1,9 @@
 //! The list of laws is complete everywhere: sources, FMU variables, documents. That each is read from a scene by its
 //! name is a test of scenes (tests/scene/forms.rs), that docs/reference.md has each one's row one of documents.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "../examples/laws/impact.rs"]
-mod impact;
-#[path = "../examples/laws/tables.rs"]
-mod tables;
-
+use crate::impact::{Case, Impact};
+use crate::tables;
 use fmi::model_description::fmi2::{Causality, ModelDescription, VariableType};
-use impact::{Case, Impact};
 use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawInfo, LawKey, LawKind, StiffnessUnit};
 use pounding::description::Package;
 use pounding::scene::{Scene, law_key};

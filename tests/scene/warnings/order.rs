@@ -2,7 +2,7 @@
 
 use super::{OFFICES, Slip, edited, expect, found, paths};
 
-const YIELDING: &str = include_str!("../../examples/scenes/yielding.toml");
+const YIELDING: &str = include_str!("../../../examples/scenes/yielding.toml");
 
 /// Two equal buildings of soft storeys and usual masses with these keys, and contacts by `[facing]`.
 fn twins(floors: usize, keys: &str) -> String {

@@ -1,6 +1,12 @@
 //! The documents say what the code says: sources, quoted files, scene keys, laws, variables, file names.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../../examples/laws/impact.rs"]
+mod impact;
+mod laws;
+#[path = "../../examples/laws/tables.rs"]
+mod tables;
+
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
 use pounding::engine::{Model, Side};
 use pounding::record::Record;

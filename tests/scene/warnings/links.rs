@@ -3,7 +3,7 @@
 use super::{OFFICES, edited, found, paths};
 
 /// In t and kN.
-const YIELDING: &str = include_str!("../../examples/scenes/yielding.toml");
+const YIELDING: &str = include_str!("../../../examples/scenes/yielding.toml");
 const AFTER: &str = "[[contact]]\nleft_floor = 1\n";
 /// A damper and a friction damper as buildings have them, N/m, N s/m and N.
 const LINK: &str = "[[link]]\nleft_floor = 3\nright_floor = 3\nstiffness = 5e6\ndashpot = 1.5e6\n";
