@@ -60,7 +60,7 @@ def released():
     flags = 'build.rustflags=["--cfg", "fmi_exports"]'
     target = WORK / "release"
     run("cargo", "build", "--release", "--package", "pounding-library", "--target-dir", target, "--config", flags)
-    return next((target / "release").glob("*pounding.so"))
+    return next((target / "release").glob("*pounding_library.so"))
 
 
 def packed():
