@@ -93,10 +93,9 @@ class Case:
         description = ElementTree.parse(folder / "modelDescription.xml").getroot()
         self.guid = description.get("guid")
         references = {v.get("name"): v.get("valueReference") for v in description.iter("ScalarVariable")}
-        tops = [
-            max((name for name in references if name.startswith(f"{side}.displacement[")), key=number)
-            for side in ("left", "right")
-        ]
+        floors = [[name for name in references if name.startswith(f"{side}.displacement[")] for side in ("left", "right")]
+        # A scene may have one building beside walls.
+        tops = [max(names, key=number) for names in floors if names]
         forces = [name for name in references if re.fullmatch(r"contact\[\d+\]\.force", name)]
         self.references = [references[name] for name in tops + forces]
 
