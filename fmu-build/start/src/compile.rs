@@ -74,16 +74,33 @@ fn remapping(checkout: &Path) -> Vec<OsString> {
 
 /// The files that one of cargo's messages says are compiled: a program by itself, a library in a list.
 fn files(message: &str) -> Vec<PathBuf> {
-    let paths = |text: &str| text.split(['"', ',']).filter(|path| !path.is_empty()).map(path).collect::<Vec<PathBuf>>();
-    let of = |key: &str, end: char| Some(message.split_once(key)?.1.split_once(end)?.0);
-    if let Some(program) = of("\"executable\":\"", '"') {
-        return paths(program);
+    let of = |key: &str, end: &str| Some(message.split_once(key)?.1.split_once(end)?.0);
+    if let Some(program) = of("\"executable\":\"", "\",") {
+        return vec![path(program)];
     }
     let is_library = message.contains("\"crate_types\":[\"cdylib\"]");
-    of("\"filenames\":[", ']').filter(|_| is_library).map(paths).unwrap_or_default()
+    let list = of("\"filenames\":[", "],\"").filter(|_| is_library).unwrap_or_default();
+    // What stands between quotes, where a comma is part of a path.
+    list.split('"').skip(1).step_by(2).map(path).collect()
 }
 
 /// As it was before it became part of a message.
 fn path(text: &str) -> PathBuf {
     text.replace("\\\\", "\\").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::files;
+    use std::path::Path;
+
+    #[test]
+    fn paths_are_read_whole() {
+        let library = "{\"crate_types\":[\"cdylib\"],\"filenames\":[\"/a, b [c]/lib.so\",\"C:\\\\d\\\\e.dll\"],\"executable\":null}";
+        assert_eq!(files(library), [Path::new("/a, b [c]/lib.so"), Path::new("C:\\d\\e.dll")]);
+        let program =
+            "{\"crate_types\":[\"bin\"],\"filenames\":[\"/x\"],\"executable\":\"/a, b [c]/cargo-fmu\",\"fresh\":true}";
+        assert_eq!(files(program), [Path::new("/a, b [c]/cargo-fmu")]);
+        assert!(files("{\"crate_types\":[\"lib\"],\"filenames\":[\"/x.rlib\"],\"executable\":null}").is_empty());
+    }
 }
