@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `arguments.rs`, `command.rs` | the command line: arguments; what is done, exit codes |
 //! | `face.rs` | what differs between the two commands |
-//! | `main.rs`, `workspace.rs` | `cargo fmu`: where the checkout is; compiling the library with cargo |
+//! | `main.rs`, `with_check.rs`, `workspace.rs` | `cargo fmu`, and its name for `check`: where the checkout is; compiling the library with cargo |
 //! | `libraries.rs` | the libraries that go into an FMU, and a folder of them |
 //! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
 //! | `merge.rs` | one FMU with the libraries of two |

@@ -41,7 +41,7 @@ impl Face for CargoFmu {
     }
 }
 
-fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     ExitCode::from(match Arguments::try_parse() {
         Ok(Arguments { command, build }) => {
             command::carry_out(CargoFmu.name(), || command::run(&CargoFmu, command, &build))

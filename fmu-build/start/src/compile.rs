@@ -38,9 +38,10 @@ pub fn compile(checkout: &Path, with_check: bool, show: impl FnMut(&str)) -> io:
     for package in PACKAGES {
         cargo.args(["--package", package]);
     }
-    if with_check {
-        cargo.args(["--features", "check"]);
-    }
+    match with_check {
+        true => cargo.args(["--lib", "--bin", "cargo-fmu-check", "--features", "check"]),
+        false => cargo.args(["--lib", "--bin", "cargo-fmu"]),
+    };
     // The functions of FMI have their names in what is compiled here, and in nothing else. Flags of the user's own, which
     // these replace, would make it another library than that of everybody.
     let flags = [vec!["--cfg".into(), "fmi_exports".into()], remapping(checkout)].concat();
