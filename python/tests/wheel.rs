@@ -8,8 +8,10 @@
 mod python_environment;
 
 use python_environment::{environment, require};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::SystemTime;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
@@ -17,7 +19,9 @@ fn root() -> &'static Path {
 
 #[test]
 fn wheel() {
+    let before = engines();
     let environment = environment(root(), "examples");
+    assert_eq!(engines(), before, "the wheel compiles the engine again: with other features of a crate than the tests");
     let tests = root().join("python/tests");
     let mut pytest = Command::new(&environment);
     pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--numprocesses", "auto", "--doctest-modules"]);
@@ -25,6 +29,14 @@ fn wheel() {
     pytest.env("PATH", environment.parent().unwrap()).env("REFERENCE_FMUS", reference_fmus());
     pytest.env("PYTHONDONTWRITEBYTECODE", "1");
     println!("{}", require(&mut pytest, "pytest"));
+}
+
+/// What the engine has been compiled into beside these tests, and when.
+fn engines() -> BTreeMap<PathBuf, SystemTime> {
+    let here = std::env::current_exe().unwrap();
+    let files = std::fs::read_dir(here.parent().unwrap()).unwrap().map(|entry| entry.unwrap().path());
+    let is_engine = |file: &PathBuf| file.to_string_lossy().contains("libpounding-");
+    files.filter(is_engine).map(|file| (file.clone(), file.metadata().unwrap().modified().unwrap())).collect()
 }
 
 /// The FMUs of the scenes that travel in the wheel, as `cargo fmu` makes them.

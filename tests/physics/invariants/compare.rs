@@ -26,6 +26,7 @@ impl Pair<'_> {
 
     /// The same bits of all outputs at all times, and of all episodes; but that a zero may have another sign.
     pub fn have_same_bits(&self) -> Result<(), String> {
+        self.are_read_alike()?;
         let outputs = self.outputs();
         for ((time, one), other) in self.plain.times.iter().zip(&self.plain.readings).zip(&self.other.readings) {
             if self.changed.is_exact_at(*time) {
@@ -35,18 +36,23 @@ impl Pair<'_> {
             }
         }
         let late = f64::EPSILON * self.changed.start.abs();
-        let other: Vec<Episode> = self
-            .plain
-            .episodes
-            .iter()
-            .zip(&self.other.episodes)
-            .map(|(one, other)| at_times_of(one, other, late))
-            .collect();
-        same_episodes(&self.plain.episodes, if late > 0.0 { &other } else { &self.other.episodes })
+        let near = |(place, other): (usize, &Episode)| match self.plain.episodes.get(place) {
+            Some(one) => at_times_of(one, other, late),
+            None => *other,
+        };
+        let other: Vec<Episode> = self.other.episodes.iter().enumerate().map(near).collect();
+        same_episodes(&self.plain.episodes, &other)
+    }
+
+    /// That both are read as often.
+    fn are_read_alike(&self) -> Result<(), String> {
+        let [one, other] = [self.plain, self.other].map(|history| (history.times.len(), history.readings.len()));
+        if one == other { Ok(()) } else { Err(format!("{one:?} and {other:?} times and readings")) }
     }
 
     /// The same but for so much, relative to the largest value of its kind: all outputs at all times, and all episodes.
     pub fn are_close(&self, allowed: f64) -> Result<(), String> {
+        self.are_read_alike()?;
         let outputs = self.worst_of_outputs(|_| true);
         let worst = self.worst_of_episodes()?.max(outputs);
         if worst.error <= allowed { Ok(()) } else { Err(format!("off by {:.1e}: {}", worst.error, worst.what)) }
@@ -132,11 +138,11 @@ pub struct Worst {
 impl Worst {
     /// NaN is worse than all.
     fn or(self, error: f64, what: impl FnOnce() -> String) -> Worst {
-        if error <= self.error { self } else { Worst { error, what: what() } }
+        if self.error.is_nan() || error <= self.error { self } else { Worst { error, what: what() } }
     }
 
     fn max(self, other: Worst) -> Worst {
-        if other.error <= self.error { self } else { other }
+        if self.error.is_nan() || other.error <= self.error { self } else { other }
     }
 }
 
@@ -173,4 +179,12 @@ pub fn same_episodes(one: &[Episode], other: &[Episode]) -> Result<(), String> {
         None if one.len() != other.len() => Err(format!("{} and {} episodes", one.len(), other.len())),
         None => Ok(()),
     }
+}
+
+#[test]
+fn what_is_no_number_stays_the_worst() {
+    let nan = || Worst::default().or(f64::NAN, || "nothing".to_owned());
+    assert!(nan().or(1.0, || "one".to_owned()).error.is_nan());
+    let one = || Worst { error: 1.0, what: "one".to_owned() };
+    assert!(nan().max(one()).error.is_nan() && one().max(nan()).error.is_nan());
 }
