@@ -57,10 +57,10 @@ def run(*command):
 
 def released():
     """The library of a release, for this machine."""
-    flags = 'build.rustflags=["--cfg", "fmi_exports"]'
     target = WORK / "release"
-    run("cargo", "build", "--release", "--package", "pounding-library", "--target-dir", target, "--config", flags)
-    return next((target / "release").glob("*pounding_library.so"))
+    command = "cargo rustc --release --lib --crate-type cdylib --package pounding-fmu --target-dir"
+    run(*command.split(), target, "--", "--cfg", "fmi_exports")
+    return target / "release/libpounding.so"
 
 
 def packed():

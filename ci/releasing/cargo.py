@@ -46,9 +46,10 @@ def compile_library(platform, toolchain, libraries):
     run("cargo", "fetch", "--locked", variables=toolchain.variables, aloud=True)
     run(
         *cargo,
-        *"build --locked --release --package pounding-library --target".split(),
+        *"rustc --locked --release --lib --crate-type cdylib --package pounding-fmu --target".split(),
         triple,
-        *flag_arguments(["--cfg", "fmi_exports", *platform.flags, *remapping.flags(toolchain.compiler)]),
+        *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]),
+        *("--", "--cfg", "fmi_exports"),
         variables=toolchain.variables,
         aloud=True,
     )

@@ -40,19 +40,19 @@ LINUX = Platform(
     "linux64",
     "x86_64-unknown-linux-gnu",
     "x86-64",
-    "libpounding_library.so",
+    "libpounding.so",
     (*OF_GLIBC, "ld-linux-x86-64.so.2"),
     GLIBC,
     host_compiler=("python", "-m", "ziglang", "cc", "-target", f"x86_64-linux-gnu.{GLIBC}"),
 )
 WINDOWS = Platform(
-    "win64", "x86_64-pc-windows-gnu", "x86-64", "pounding_library.dll", OF_WINDOWS, host_compiler=("x86_64-w64-mingw32-gcc",)
+    "win64", "x86_64-pc-windows-gnu", "x86-64", "pounding.dll", OF_WINDOWS, host_compiler=("x86_64-w64-mingw32-gcc",)
 )
 ARM = Platform(
     "aarch64-linux",
     "aarch64-unknown-linux-gnu",
     "aarch64",
-    "libpounding_library.so",
+    "libpounding.so",
     (*OF_GLIBC, "ld-linux-aarch64.so.1"),
     GLIBC,
     host_compiler=("python", "-m", "ziglang", "cc", "-target", f"aarch64-linux-gnu.{GLIBC}"),
@@ -67,10 +67,10 @@ NATIVE = {
     ("Linux", "x86_64"): LINUX,
     ("Linux", "aarch64"): ARM,
     ("Windows", "AMD64"): Platform(
-        "win64", "x86_64-pc-windows-msvc", "x86-64", "pounding_library.dll", OF_WINDOWS, flags=("-Ctarget-feature=+crt-static",)
+        "win64", "x86_64-pc-windows-msvc", "x86-64", "pounding.dll", OF_WINDOWS, flags=("-Ctarget-feature=+crt-static",)
     ),
-    ("Darwin", "x86_64"): Platform("darwin64", "x86_64-apple-darwin", "x86-64", "libpounding_library.dylib", OF_MACOS),
-    ("Darwin", "arm64"): Platform("aarch64-darwin", "aarch64-apple-darwin", "aarch64", "libpounding_library.dylib", OF_MACOS),
+    ("Darwin", "x86_64"): Platform("darwin64", "x86_64-apple-darwin", "x86-64", "libpounding.dylib", OF_MACOS),
+    ("Darwin", "arm64"): Platform("aarch64-darwin", "aarch64-apple-darwin", "aarch64", "libpounding.dylib", OF_MACOS),
 }
 
 

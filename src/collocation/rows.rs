@@ -83,18 +83,14 @@ fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, ma
     let (mut even, mut odd) = ([[0.0; 4]; FOURS], [[0.0; 4]; FOURS]);
     even.copy_from_slice(to);
     for (columns, values) in matrix[..N].as_chunks::<2>().0.iter().zip(values[..N].as_chunks::<2>().0) {
-        add_scaled(&mut even, &fours(&columns[0])[first..first + FOURS], values[0]);
-        add_scaled(&mut odd, &fours(&columns[1])[first..first + FOURS], values[1]);
+        for (sum, column, value) in [(&mut even, &columns[0], values[0]), (&mut odd, &columns[1], values[1])] {
+            for (sum, column) in sum.iter_mut().zip(&fours(column)[first..first + FOURS]) {
+                *sum = each(|i| sum[i] + column[i] * value);
+            }
+        }
     }
     for ((to, even), odd) in to.iter_mut().zip(&even).zip(&odd) {
         *to = each(|i| even[i] + odd[i]);
-    }
-}
-
-#[inline(always)]
-fn add_scaled<const FOURS: usize>(sums: &mut [[f64; 4]; FOURS], column: &[[f64; 4]], factor: f64) {
-    for (sum, column) in sums.iter_mut().zip(column) {
-        *sum = each(|i| sum[i] + column[i] * factor);
     }
 }
 
