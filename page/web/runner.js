@@ -159,6 +159,8 @@ export class Runner {
     const passed = (performance.now() - started) / 1e3;
     this.took = state.run === null ? Math.max(0, passed - WARMING_UP) : passed;
     this.#take(run, scene, look, state.run === null ? null : passed);
+    // What follows takes its time without a word: the line has just said what happened.
+    clearTimeout(this.bar);
     await this.runAlone();
   }
 
