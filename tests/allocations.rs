@@ -41,7 +41,7 @@ static ALLOCATOR: Counting = Counting;
 fn a_search_needs_no_matrix_for_each_instant() {
     let mut scene = scene(include_str!("problems/peaks/long_coupled_flight.toml"));
     scene.ground.record = Some("r.csv".into());
-    let still = pounding::record::Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.0] };
+    let still = pounding::record::Record::new(vec![0.0, 5.0], vec![0.0, 0.0]);
     let calls = [false, true].map(|reads_peaks| {
         let mut run = Run::new(&scene, Some(&still));
         let before = CALLS.get();

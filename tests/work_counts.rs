@@ -284,7 +284,7 @@ fn the_work_of_quick_modes_takes_no_pieces() {
 fn a_long_flight_is_searched_once() {
     let mut scene = scene(include_str!("problems/peaks/long_coupled_flight.toml"));
     scene.ground.record = Some("r.csv".into());
-    let still = Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.0] };
+    let still = Record::new(vec![0.0, 5.0], vec![0.0, 0.0]);
     let mut run = Run::new(&scene, Some(&still));
     for k in 1..=400 {
         run.to(0.01 * f64::from(k));

@@ -14,7 +14,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Accelerogram, Refusal> {
 
 /// What the file says of itself, and the samples: first all times, s, then the accelerations, m/s2.
 pub fn about(name: &str, bytes: &[u8]) -> Result<Answer, Refusal> {
-    let Accelerogram { format, about, channels, record, .. } = read(name, bytes)?;
+    let Accelerogram { format, unit, about, channels, record, .. } = read(name, bytes)?;
     let (times, accelerations) = (&record.times, &record.accelerations);
     let peak = record.peak();
     let first = times.first().copied().unwrap_or_default();
@@ -24,6 +24,8 @@ pub fn about(name: &str, bytes: &[u8]) -> Result<Answer, Refusal> {
         "format": format.to_string(),
         "about": about,
         "channels": channels,
+        "component": record.component,
+        "unit": unit.to_string(),
         "samples": times.len(),
         "start": first,
         "end": last,
@@ -31,7 +33,8 @@ pub fn about(name: &str, bytes: &[u8]) -> Result<Answer, Refusal> {
         "peak": peak,
         "peakInG": peak / STANDARD_GRAVITY,
         "peakTime": times.get(at_peak),
-        "mean": accelerations.iter().sum::<f64>() / accelerations.len() as f64,
+        "mean": record.mean(),
+        "offset": record.offset(),
         "ariasIntensity": arias_intensity(times, accelerations),
     });
     Answer::json(&told, [record.times, record.accelerations].concat())

@@ -39,7 +39,7 @@ impl Record {
     /// That of two arrays, s and m/s2.
     #[staticmethod]
     fn of(times: PyReadonlyArray1<'_, f64>, accelerations: PyReadonlyArray1<'_, f64>, key: &str) -> PyResult<Record> {
-        let record = record::Record { times: times.to_vec()?, accelerations: accelerations.to_vec()? };
+        let record = record::Record::new(times.to_vec()?, accelerations.to_vec()?);
         let record = record.checked().map_err(|error| all(&error, |problem| format!("{key}: {problem}")))?;
         Ok(Record { name: "(arrays)".to_owned(), record: Arc::new(record) })
     }

@@ -30,7 +30,8 @@ fn record(name: &str, record: &Record) -> String {
     let steps = record.times.windows(2).map(|pair| pair[1] - pair[0]);
     let is_even = steps.into_iter().all(|step| (step - spacing).abs() <= 1e-6 * spacing);
     let every = if is_even { format!("every {} s", short(spacing)) } else { "unevenly spaced".to_owned() };
-    format!("{name}: {samples} samples, {every}, {} s long", digits(last - first))
+    let component = if record.component.is_empty() { String::new() } else { format!("{}, ", record.component) };
+    format!("{name}: {component}{samples} samples, {every}, {} s long", digits(last - first))
 }
 
 /// The peak as it shakes the buildings, and how it comes about.

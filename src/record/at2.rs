@@ -1,9 +1,11 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
-use super::accelerogram::{Accelerogram, RecordError, STANDARD_GRAVITY};
+use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
 use super::numbers::{fortran_number, numbers_apart};
-use super::reading::{Reading, excerpt, on_line};
+use super::reading::{Reading, Said, excerpt, on_line};
+use super::said::{self, SaidUnit};
+use super::unit::Unit;
 
 const HEADER_LINES: usize = 4;
 /// A title that goes on makes more of them.
@@ -34,11 +36,13 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     reading.record.times.reserve(samples.min(text.len() / 2));
     reading.record.accelerations.reserve(samples.min(text.len() / 2));
     for (number, line) in lines {
-        reading.add_all(number, numbers_apart(line), |k, value| (k * step, value * STANDARD_GRAVITY), "a number");
+        if !reading.is_end(line, samples) {
+            reading.add_all(number, numbers_apart(line), |k, value| (k * step, Unit::Gravity.in_si(value)), "a number");
+        }
     }
     reading.check_count(line, "NPTS", samples);
     let about = header.get(1).map_or_else(String::new, |(_, line)| excerpt(line));
-    reading.accelerogram(Format::PeerAt2, about)
+    reading.accelerogram(Said::one(Format::PeerAt2, Unit::Gravity, about, ""))
 }
 
 /// The line of the header that says it: the fourth, or a later one where a title goes on.
@@ -74,12 +78,18 @@ impl Sampling {
     }
 }
 
-/// Velocity and displacement files of the same database (`.VT2`, `.DT2`) have the same form and another unit.
+/// Velocity and displacement files of the same database (`.VT2`, `.DT2`) have the same form and another unit, as have files that
+/// others have written in this form.
 fn check_unit(header: &[(usize, &str)], reading: &mut Reading) {
     for (number, line) in header {
         let text = line.to_ascii_uppercase();
         let words_after = text.split_once("UNITS OF").map(|(_, after)| after.split([' ', '\t', '\r', ',', '.']));
-        if words_after.and_then(|mut words| words.find(|word| !word.is_empty())).is_some_and(|unit| unit != "G") {
+        let is_other =
+            words_after.and_then(|mut words| words.find(|word| !word.is_empty())).is_some_and(|unit| unit != "G");
+        let is_other_motion =
+            ["VELOCITY", "DISPLACEMENT"].iter().any(|word| text.contains(word)) && !text.contains("ACCEL");
+        let is_gravity = |unit: &SaidUnit| *unit == SaidUnit::Known(Unit::Gravity);
+        if is_other || is_other_motion || !said::units(line).iter().all(is_gravity) {
             reading.refuse(|| on_line(*number, format!("{}: expected UNITS OF G", excerpt(line))));
         }
     }

@@ -2,9 +2,12 @@
 
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
-use super::reading::{Reading, excerpt, on_line};
+use super::reading::{Reading, Said, excerpt, on_line};
+use super::unit::Unit;
 
 const COLUMNS: [&str; 2] = ["time_s", "accel_m_s2"];
+/// Number of the one with the accelerations.
+pub(super) const COLUMN: usize = 2;
 
 /// Bytes of a short line: two numbers, a comma and the end of the line.
 const SHORT_LINE: usize = 12;
@@ -29,7 +32,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     }
     let comment = text.trim_start().strip_prefix('#').and_then(|rest| rest.split('\n').next());
     let about = comment.map_or_else(String::new, excerpt);
-    reading.accelerogram(Format::Csv, about)
+    reading.accelerogram(Said::one(Format::Csv, Unit::Metres, about, ""))
 }
 
 /// The rows of a text, each with its line, counted from 1: all but blank ones and comments. `\r` alone ends a row too, but

@@ -3,7 +3,7 @@
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
 use super::numbers::{numbers_apart, numbers_of};
-use super::reading::{Reading, excerpt, numbered, on_line};
+use super::reading::{Reading, Said, excerpt, numbered, on_line};
 use super::unit::Unit;
 
 /// The header has 64 lines, older ones fewer; values may go on in a line of their own.
@@ -43,7 +43,11 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
         reading.add_all(number, numbers_apart(line), |k, value| (k * step, unit.in_si(value)), "a number");
     }
     reading.check_count(line, SAMPLES, samples);
-    reading.accelerogram(Format::Esm, header.about())
+    if let Some((number, peak)) = header.peak() {
+        reading.check_peak(number, peak, Unit::Centimetres);
+    }
+    let component = header.find("STREAM").map_or("", |(_, stream)| stream);
+    reading.accelerogram(Said::one(Format::Esm, unit, header.about(), component))
 }
 
 struct Header<'t> {
@@ -90,6 +94,12 @@ impl<'t> Header<'t> {
         }
         let unit = self.value(UNITS, "a unit of acceleration, cm/s^2", Unit::read, reading);
         unit.filter(|_| reading.is_sound()).map(|(_, unit)| unit)
+    }
+
+    /// cm/s2, with its line.
+    fn peak(&self) -> Option<(usize, f64)> {
+        let (number, value) = self.find("PGA_CM/S^2")?;
+        Some((number, value.parse().ok()?))
     }
 
     fn about(&self) -> String {

@@ -1,34 +1,39 @@
-//! Record files as a scene names them: a path, and behind `#` the channel.
+//! Record files as a scene names them: a path, and behind `#` the channel or column.
 
 use super::accelerogram::{Accelerogram, RecordError};
+use super::options::{Column, RecordOptions};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A record file that has been read, but not understood yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordFile {
-    /// Its name, without a channel.
+    /// Its name, without a column.
     pub name: String,
-    /// The channel that was asked for, counted from 1.
-    pub channel: Option<usize>,
+    /// The column that its name asked for.
+    pub column: Option<Column>,
+    /// What a user says about it otherwise.
+    pub options: RecordOptions,
     /// All that is in it.
     pub bytes: Vec<u8>,
 }
 
 impl RecordFile {
-    /// Reads a file. `records/CHAN.v2#2` is the second channel of `records/CHAN.v2`, unless there is a file of that very name.
+    /// Reads a file. `records/CHAN.v2#2` is the second channel of `records/CHAN.v2`, and `motion.csv#EW` the column with that name,
+    /// unless there is a file of that very name.
     ///
     /// # Errors
     /// A file that cannot be read, or what is no file: a device or a pipe may have no end.
     pub fn read(path: &Path) -> io::Result<RecordFile> {
-        let (place, channel) = RecordFile::place(path);
-        Ok(RecordFile { bytes: read(&place)?, name: place.to_string_lossy().into_owned(), channel })
+        let (place, column) = RecordFile::place(path);
+        let name = place.to_string_lossy().into_owned();
+        Ok(RecordFile { bytes: read(&place)?, name, column, options: RecordOptions::default() })
     }
 
-    /// Where the file lies that `read` reads, and the channel that is asked for.
-    pub fn place(path: &Path) -> (PathBuf, Option<usize>) {
-        match without_channel(&path.to_string_lossy()) {
-            (shorter, Some(number)) if fs::symlink_metadata(path).is_err() => (shorter.into(), Some(number)),
+    /// Where the file lies that `read` reads, and the column that is asked for.
+    pub fn place(path: &Path) -> (PathBuf, Option<Column>) {
+        match without_column(&path.to_string_lossy()) {
+            (shorter, Some(column)) if fs::symlink_metadata(path).is_err() => (shorter.into(), Some(column)),
             _ => (path.to_path_buf(), None),
         }
     }
@@ -36,21 +41,26 @@ impl RecordFile {
     /// The file that a name asks for among files in memory, told by `bytes_of`, as `read` finds it in a folder.
     pub fn find(name: &str, bytes_of: impl Fn(&str) -> Option<Vec<u8>>) -> Option<RecordFile> {
         if let Some(bytes) = bytes_of(name) {
-            return Some(RecordFile { name: name.to_owned(), channel: None, bytes });
+            return Some(RecordFile { name: name.to_owned(), column: None, options: RecordOptions::default(), bytes });
         }
-        let (shorter, channel) = without_channel(name);
-        Some(RecordFile::named(name, channel.and_then(|_| bytes_of(shorter))?))
+        let (shorter, column) = without_column(name);
+        Some(RecordFile::named(name, column.and_then(|_| bytes_of(shorter))?))
     }
 
-    /// A file that has been read already; its name may end with a channel.
+    /// A file that has been read already; its name may end with a column.
     pub fn named(name: &str, bytes: Vec<u8>) -> RecordFile {
-        let (name, channel) = without_channel(name);
-        RecordFile { name: name.to_owned(), channel, bytes }
+        let (name, column) = without_column(name);
+        RecordFile { name: name.to_owned(), column, options: RecordOptions::default(), bytes }
     }
 
-    /// The channel at the end of a name.
-    pub fn channel_of(name: &str) -> Option<usize> {
-        without_channel(name).1
+    /// The same file with what a user says about it.
+    pub fn with(self, options: &RecordOptions) -> RecordFile {
+        RecordFile { options: options.clone(), ..self }
+    }
+
+    /// The column at the end of a name.
+    pub fn column_of(name: &str) -> Option<Column> {
+        without_column(name).1
     }
 
     /// What is in it.
@@ -58,7 +68,18 @@ impl RecordFile {
     /// # Errors
     /// As [`super::Record::parse`].
     pub fn parse(&self) -> Result<Accelerogram, RecordError> {
-        Accelerogram::parse(&self.name, self.channel, &self.bytes)
+        if let (Some(first), Some(second)) = (&self.column, &self.options.column)
+            && first != second
+        {
+            return Err(RecordError::new(format!("#{first} in its name and column = {second}: expected one of them")));
+        }
+        Accelerogram::parse(&self.name, &self.wanted(), &self.bytes)
+    }
+
+    /// What is wanted of it, by its name and otherwise.
+    pub(super) fn wanted(&self) -> RecordOptions {
+        let options = self.options.clone();
+        RecordOptions { column: self.column.clone().or(options.column), ..options }
     }
 }
 
@@ -70,10 +91,14 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// `file.v2#2` is `file.v2` and 2.
-fn without_channel(name: &str) -> (&str, Option<usize>) {
-    let channel = name.rsplit_once('#').and_then(|(file, number)| {
-        let is_number = (1..=6).contains(&number.len()) && number.bytes().all(|byte| byte.is_ascii_digit());
-        (is_number && !file.is_empty()).then(|| Some((file, number.parse().ok()?)))?
-    });
-    channel.map_or((name, None), |(file, number)| (file, Some(number)))
+fn without_column(name: &str) -> (&str, Option<Column>) {
+    const LONGEST: usize = 40;
+    let Some((file, column)) = name.rsplit_once('#') else { return (name, None) };
+    let is_column = (1..=LONGEST).contains(&column.len()) && !column.contains(['/', '\\', '.']) && !file.is_empty();
+    let is_number = column.bytes().all(|byte| byte.is_ascii_digit());
+    match column.parse() {
+        Ok(number) if is_column && is_number && column.len() <= 6 => (file, Some(Column::Number(number))),
+        _ if is_column && !is_number => (file, Some(Column::Name(column.to_owned()))),
+        _ => (name, None),
+    }
 }

@@ -18,7 +18,7 @@ pub enum Format {
     Csmip,
     /// COSMOS, volume 2.
     Cosmos,
-    /// Two columns of text.
+    /// Columns of text.
     Columns,
 }
 
@@ -31,7 +31,7 @@ impl fmt::Display for Format {
             Format::Esm => "ESM, ITACA",
             Format::Csmip => "CSMIP volume 2",
             Format::Cosmos => "COSMOS volume 2",
-            Format::Columns => "two columns",
+            Format::Columns => "columns of text",
         })
     }
 }

@@ -3,7 +3,8 @@
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
 use super::numbers::Columns;
-use super::reading::{Reading, excerpt, numbered};
+use super::reading::{Reading, Said, excerpt, numbered};
+use super::unit::Unit;
 
 /// How the first line of every file begins.
 const FIRST_KEY: &str = "Origin Time";
@@ -31,7 +32,12 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     }
     let samples = (header.duration * header.frequency).round();
     reading.check_count(header.duration_line, "Duration Time times Sampling Freq", samples as usize);
-    reading.accelerogram(Format::Knet, header.about)
+    if let Some((line, peak)) = header.peak.filter(|_| reading.is_sound() && reading.samples > 0) {
+        // The network takes the offset away first.
+        let level = reading.record.mean();
+        reading.check_peak_about(line, peak, Unit::Centimetres, level);
+    }
+    reading.accelerogram(Said::one(Format::Knet, Unit::Centimetres, header.about, header.direction))
 }
 
 /// Whether most of a line is counts, in columns or apart.
@@ -52,7 +58,10 @@ struct Header {
     duration: f64,
     duration_line: usize,
     scale: Scale,
+    /// gal, about the mean, with its line.
+    peak: Option<(usize, f64)>,
     about: String,
+    direction: String,
     lines: usize,
 }
 
@@ -87,10 +96,23 @@ impl Header {
             duration: duration?.1,
             duration_line: duration?.0,
             scale: scale?.1,
+            peak: value("Max. Acc.").and_then(|(number, text)| Some((number, text.parse().ok()?))),
+            direction: direction(&about("Dir.")),
             about: format!("{}, {}, {}", about("Station Code"), about("Dir."), about(FIRST_KEY)),
             lines: last + 1 + memo,
         })
     }
+}
+
+/// KiK-net numbers its components: 1 to 3 are of the sensor in the borehole, 3 and 6 vertical.
+fn direction(said: &str) -> String {
+    let name = match said {
+        "1" | "4" => "N-S",
+        "2" | "5" => "E-W",
+        "3" | "6" => "U-D",
+        other => other,
+    };
+    name.to_owned()
 }
 
 /// A value of the header, with its line; what is wrong with it is noted.

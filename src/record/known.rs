@@ -3,6 +3,7 @@
 
 use super::accelerogram::{Record, RecordError};
 use super::file::RecordFile;
+use super::options::RecordOptions;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,7 +16,7 @@ pub struct KnownRecords {
 
 #[derive(Debug)]
 struct KnownRecord {
-    channel: Option<usize>,
+    options: RecordOptions,
     bytes: Vec<u8>,
     record: Arc<Record>,
 }
@@ -31,15 +32,16 @@ impl KnownRecords {
     /// # Errors
     /// As [`Record::parse`].
     pub fn read(&self, file: RecordFile) -> Result<Arc<Record>, RecordError> {
+        let options = file.wanted();
         let latest = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_same = |known: &&KnownRecord| known.channel == file.channel && known.bytes == file.bytes;
+        let is_same = |known: &&KnownRecord| known.options == options && known.bytes == file.bytes;
         if let Some(known) = latest().iter().find(is_same) {
             return Ok(Arc::clone(&known.record));
         }
         let record = Arc::new(file.parse()?.record);
         let mut latest = latest();
         latest.truncate(self.most - 1);
-        latest.push_front(KnownRecord { channel: file.channel, bytes: file.bytes, record: Arc::clone(&record) });
+        latest.push_front(KnownRecord { options, bytes: file.bytes, record: Arc::clone(&record) });
         Ok(record)
     }
 }
@@ -53,7 +55,7 @@ mod tests {
     const OTHER: &[u8] = b"time_s,accel_m_s2\n0,0\n0.1,4\n0.3,0\n";
 
     fn file(name: &str, bytes: &[u8]) -> RecordFile {
-        RecordFile { name: name.to_owned(), channel: None, bytes: bytes.to_vec() }
+        RecordFile::named(name, bytes.to_vec())
     }
 
     #[test]
@@ -63,7 +65,7 @@ mod tests {
         assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
         assert!(Arc::ptr_eq(&first, &known.read(file("copy.csv", PULSE)).unwrap()));
         // Another channel is another record: there is none here, and what is known stays.
-        assert!(known.read(RecordFile { channel: Some(2), ..file("one.csv", PULSE) }).is_err());
+        assert!(known.read(RecordFile::named("one.csv#1", PULSE.to_vec())).is_err());
         assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
         // The same file with something else in it.
         assert_eq!((first.peak(), known.read(file("one.csv", OTHER)).unwrap().peak()), (3.0, 4.0));

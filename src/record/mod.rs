@@ -33,16 +33,21 @@
 
 mod accelerogram;
 mod at2;
-mod columns;
+mod binary;
+mod components;
 mod csv;
 mod esm;
 mod file;
 mod format;
 mod knet;
 mod known;
+mod mean;
 mod numbers;
+mod options;
 mod parse;
 mod reading;
+mod said;
+mod table;
 mod unit;
 mod volume2;
 
@@ -50,4 +55,6 @@ pub use accelerogram::{Accelerogram, Record, RecordError, STANDARD_GRAVITY};
 pub use file::RecordFile;
 pub use format::Format;
 pub use known::KnownRecords;
+pub use options::{Column, RecordOptions};
 pub use reading::{MOST_PROBLEMS, MOST_TIME};
+pub use unit::Unit;

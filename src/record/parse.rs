@@ -1,50 +1,83 @@
 //! Records from what files hold: which format it is.
 
 use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::components::{self, Component};
 use super::file::RecordFile;
+use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{at2, columns, csv, esm, knet, volume2};
+use super::{at2, binary, csv, esm, knet, table, volume2};
+use crate::figures::plain;
 
 impl Accelerogram {
     /// Reads the bytes of a record file. Their format is told from what is in them; of a file that could be anything the
-    /// name counts (`.at2` in any case: PEER). `channel`, counted from 1, is for files that have several.
+    /// name counts (`.at2` in any case: PEER).
     ///
     /// # Errors
     /// As [`Record::parse`].
-    pub fn parse(name: &str, channel: Option<usize>, bytes: &[u8]) -> Result<Accelerogram, RecordError> {
-        let text = &*text_of(bytes);
-        if csv::is_it(text) {
-            return csv::parse(text).and_then(|found| found.of_channel(channel));
+    pub fn parse(name: &str, options: &RecordOptions, bytes: &[u8]) -> Result<Accelerogram, RecordError> {
+        if let Some(told) = binary::told(bytes) {
+            return Err(RecordError::new(told));
         }
+        let text = &*text_of(bytes);
         // Lines of an old Macintosh, and the end of a file of DOS.
-        let lines = if text.contains('\n') { String::new() } else { text.replace('\r', "\n") };
+        let lines = if text.contains('\n') || csv::is_it(text) { String::new() } else { text.replace('\r', "\n") };
         let text = if lines.is_empty() { text } else { &lines };
         let text = text.trim_end_matches(['\u{1a}', '\0']);
-        if volume2::is_it(text) {
-            return volume2::parse(text, channel);
-        }
-        let found = match () {
-            () if knet::is_it(text) => knet::parse(text),
-            () if esm::is_it(text) => esm::parse(text),
-            () if at2::is_it(text) => at2::parse(text),
-            () => match columns::parse(text) {
-                Some(found) => found,
-                None if volume2::has_title(text) => return volume2::parse(text, channel),
-                None if is_at2(name) => at2::parse(text),
-                None => Err(unknown(text)),
-            },
+        let found = match options.skip_lines {
+            Some(_) => table::parse(text, options).unwrap_or_else(|| Err(unknown(text))),
+            None => of_format(name, options, text).and_then(|found| found.agrees_with(options)),
         };
-        found.and_then(|found| found.of_channel(channel))
+        found.map(|found| found.without_mean(options.remove_mean))
     }
 
-    /// The same, where no channel but the only one has been asked for.
-    fn of_channel(self, channel: Option<usize>) -> Result<Accelerogram, RecordError> {
-        match channel {
-            None | Some(1) => Ok(self),
-            Some(number) => {
-                Err(RecordError::new(format!("#{number}: expected a file with channels, this is {}", self.format)))
+    /// Whether step and unit are those that the user says.
+    fn agrees_with(self, options: &RecordOptions) -> Result<Accelerogram, RecordError> {
+        let mut problems = Vec::new();
+        if let Some(unit) = options.unit.filter(|unit| *unit != self.unit) {
+            problems
+                .push(format!("the file says {}: expected unit = \"{}\", not {unit}, or none", self.unit, self.unit));
+        }
+        if let Some(step) = options.step {
+            let between = self.record.times.windows(2).map(|pair| pair[1] - pair[0]);
+            if let Some(found) = between.into_iter().find(|between| (between - step).abs() > 0.02 * step) {
+                let (found, step) = (plain(found), plain(step));
+                problems.push(format!("samples {found} s apart: expected step = {found}, not {step}, or none"));
             }
         }
+        if problems.is_empty() { Ok(self) } else { Err(RecordError { problems }) }
+    }
+
+    fn without_mean(mut self, is_wanted: bool) -> Accelerogram {
+        if is_wanted {
+            self.record.remove_mean();
+        }
+        self
+    }
+
+    /// The same, where no other component has been asked for than the one that there is.
+    fn of_column(self, options: &RecordOptions, number: usize) -> Result<Accelerogram, RecordError> {
+        let Some(wanted) = &options.column else { return Ok(self) };
+        let only = [Component::new(number, self.record.component.clone())];
+        match components::named(&only, wanted) {
+            Some(_) => Ok(self),
+            None => Err(RecordError::new(format!("#{wanted}: expected a file with channels, this is {}", self.format))),
+        }
+    }
+}
+
+/// What a file in one of the formats holds.
+fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelerogram, RecordError> {
+    let wanted = options.column.as_ref();
+    let one = |found: Result<Accelerogram, RecordError>| found.and_then(|found| found.of_column(options, 1));
+    match () {
+        () if csv::is_it(text) => csv::parse(text).and_then(|found| found.of_column(options, csv::COLUMN)),
+        () if volume2::is_it(text) => volume2::parse(text, wanted),
+        () if knet::is_it(text) => one(knet::parse(text)),
+        () if esm::is_it(text) => one(esm::parse(text)),
+        () if at2::is_it(text) => one(at2::parse(text)),
+        () if volume2::has_title(text) => volume2::parse(text, wanted),
+        () if is_at2(name) && table::parse(text, options).is_none_or(|found| found.is_err()) => one(at2::parse(text)),
+        () => table::parse(text, options).unwrap_or_else(|| Err(unknown(text))),
     }
 }
 
@@ -57,12 +90,8 @@ fn unknown(text: &str) -> RecordError {
     const SHOWN: usize = 3;
     let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), Origin Time (K-NET, KiK-net), \
                       SAMPLING_INTERVAL_S: (ESM, ITACA), points of accel data (CSMIP), acceleration pts (COSMOS), two columns of \
-                      numbers";
+                      numbers, or one with step = ... and unit = ...";
     let mut problems = vec![format!("no known format: expected one of {looked_for}")];
-    if let Some((number, count)) = columns::count(text) {
-        let plural = if count == 1 { "" } else { "s" };
-        problems.push(on_line(number, format!("{count} column{plural} of numbers: expected 2, time and acceleration")));
-    }
     let lines = numbered(text).filter(|(_, line)| !line.trim().is_empty()).take(SHOWN);
     problems.extend(lines.map(|(number, line)| on_line(number, excerpt(line))));
     RecordError { problems }
@@ -87,8 +116,8 @@ impl Record {
     /// missing or none of acceleration, something that is not a finite number, times that do not increase or are beyond
     /// 1e12 s, fewer than two samples, a number of samples other than the one announced, a channel that is not there.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
-        let RecordFile { name, channel, .. } = RecordFile::named(name, Vec::new());
-        Ok(Accelerogram::parse(&name, channel, bytes)?.record)
+        let file = RecordFile::named(name, Vec::new());
+        Ok(Accelerogram::parse(&file.name, &file.wanted(), bytes)?.record)
     }
 
     /// A record that has come another way than by [`Record::parse`], if it could have been read from a file.
@@ -104,6 +133,6 @@ impl Record {
         for (time, acceleration) in self.times.into_iter().zip(self.accelerations) {
             reading.add(time, acceleration, |problem| problem);
         }
-        reading.complete()
+        Ok(Record { component: self.component, ..reading.complete()? })
     }
 }

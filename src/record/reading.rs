@@ -1,7 +1,9 @@
 //! A record while its file is being read, and how problems in it are told.
 
 use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::components::Component;
 use super::format::Format;
+use super::unit::Unit;
 use crate::figures::plain;
 use std::borrow::Cow;
 
@@ -27,7 +29,7 @@ pub(super) struct Reading {
 
 impl Reading {
     pub(super) fn with_capacity(samples: usize) -> Reading {
-        let record = Record { times: Vec::with_capacity(samples), accelerations: Vec::with_capacity(samples) };
+        let record = Record::new(Vec::with_capacity(samples), Vec::with_capacity(samples));
         Reading { record, problems: Vec::new(), more: 0, samples: 0 }
     }
 
@@ -56,6 +58,11 @@ impl Reading {
             self.record.times.push(time);
             self.record.accelerations.push(acceleration);
         }
+    }
+
+    /// Whether a line is words behind the last of the samples that were announced, such as `*** End data ***`.
+    pub(super) fn is_end(&self, line: &str, announced: usize) -> bool {
+        self.samples == announced && !line.contains(|c: char| c.is_ascii_digit())
     }
 
     /// Adds what a line holds at the same interval after the sample before it; `expected` is what an error is none of.
@@ -125,9 +132,33 @@ impl Reading {
         }
     }
 
-    /// The record of a file with one channel, with what the file says about it.
-    pub(super) fn accelerogram(self, format: Format, about: String) -> Result<Accelerogram, RecordError> {
-        Ok(Accelerogram { format, about, channels: Vec::new(), record: self.complete()? })
+    /// Compares the largest sample with that which a line of the header announces, in the unit of the samples. A header
+    /// rounds, and its peak may be of a curve through the samples: a fiftieth is allowed.
+    pub(super) fn check_peak(&mut self, line: usize, said: f64, unit: Unit) {
+        self.check_peak_about(line, said, unit, 0.0);
+    }
+
+    /// The same of the peak about a level, m/s2.
+    pub(super) fn check_peak_about(&mut self, line: usize, said: f64, unit: Unit, level: f64) {
+        const ALLOWED: f64 = 0.02;
+        const ROUNDING: f64 = 1e-3;
+        let peak = self.record.peak_about(level);
+        let expected = unit.in_si(said.abs());
+        if self.is_sound() && said != 0.0 && (peak - expected).abs() > ALLOWED * expected + ROUNDING * unit.in_si(1.0) {
+            let found = peak / unit.in_si(1.0);
+            let problem =
+                format!("a peak of {} {unit}: expected that of the samples, {} {unit}", plain(said), plain(found));
+            self.refuse(|| on_line(line, problem));
+        }
+    }
+
+    /// The record, with what the file says about it.
+    pub(super) fn accelerogram(self, said: Said) -> Result<Accelerogram, RecordError> {
+        let Said { format, unit, about, components, chosen } = said;
+        let mut record = self.complete()?;
+        record.component = components.get(chosen).map(|one| one.name.clone()).unwrap_or_default();
+        let channels = if components.len() < 2 { Vec::new() } else { components.into_iter().map(|c| c.name).collect() };
+        Ok(Accelerogram { format, unit, about, channels, record })
     }
 
     /// The record once its file has been read to the end.
@@ -152,6 +183,26 @@ impl Reading {
     }
 }
 
+/// What a file says beside its samples.
+pub(super) struct Said {
+    pub format: Format,
+    /// That of the samples in the file.
+    pub unit: Unit,
+    /// As [`Accelerogram::about`].
+    pub about: String,
+    /// All components; none where there is one without a name.
+    pub components: Vec<Component>,
+    /// The place among them of the one that has been read.
+    pub chosen: usize,
+}
+
+impl Said {
+    /// Of a file with one component, whose name may be empty.
+    pub(super) fn one(format: Format, unit: Unit, about: String, component: impl Into<String>) -> Said {
+        Said { format, unit, about, components: vec![Component::new(1, component)], chosen: 0 }
+    }
+}
+
 /// A problem on a line, counted from 1.
 pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
     format!("line {number}: {problem}")
@@ -162,9 +213,18 @@ pub(super) fn numbered(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines().enumerate().map(|(i, line)| (i + 1, line))
 }
 
-/// The text of a file, without a byte order mark. What is not UTF-8 is read as Latin-1, in which a unit may be `m/s²`; of
-/// other encodings names are wrong then, but no numbers.
+/// The text of a file, without a byte order mark: UTF-8, UTF-16 where such a mark says so. What is none of them is read as
+/// Latin-1, in which a unit may be `m/s²`; of other encodings names are wrong then, but no numbers.
 pub(super) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    let wide = |rest: &[u8], read: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = rest.chunks_exact(2).map(|pair| read([pair[0], pair[1]])).collect();
+        Cow::Owned(String::from_utf16_lossy(&units))
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => return wide(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => return wide(rest, u16::from_be_bytes),
+        _ => {}
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let latin = || bytes.iter().map(|&byte| char::from(byte)).collect();
     std::str::from_utf8(bytes).map_or_else(|_| Cow::Owned(latin()), Cow::Borrowed)

@@ -2,9 +2,11 @@
 //! each with headers and with blocks of acceleration, velocity and displacement.
 
 use super::accelerogram::{Accelerogram, RecordError};
+use super::components::{self, Component};
 use super::format::Format;
 use super::numbers::{Columns, fortran_number};
-use super::reading::{Reading, excerpt, numbered, on_line};
+use super::options::Column;
+use super::reading::{Reading, Said, excerpt, numbered, on_line};
 use super::unit::Unit;
 use crate::figures::plain;
 
@@ -28,9 +30,11 @@ pub(super) fn has_title(text: &str) -> bool {
     ["corrected accel", "corrected veloc", "corrected displ", "(format v"].iter().any(|title| first.contains(title))
 }
 
-pub(super) fn parse(text: &str, channel: Option<usize>) -> Result<Accelerogram, RecordError> {
+pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram, RecordError> {
     let Found { channels, others } = Found::look(text);
-    let found = choose(&channels, channel).ok_or_else(|| RecordError::new(unknown(&channels, channel, others)))?;
+    let components: Vec<Component> = channels.iter().map(Channel::component).collect();
+    let chosen = choose(&components, wanted).ok_or_else(|| RecordError::new(unknown(&components, wanted, others)))?;
+    let found = &channels[chosen];
     let mut reading = Reading::with_capacity(0);
     let step = found.step(&mut reading);
     let unit = found.unit(&mut reading);
@@ -38,20 +42,23 @@ pub(super) fn parse(text: &str, channel: Option<usize>) -> Result<Accelerogram, 
     found.samples(text, step, unit, &mut reading);
     reading.check_count(found.line, "points of acceleration", found.block.count);
     let format = if found.block.step.is_some() { Format::Csmip } else { Format::Cosmos };
-    let channels: Vec<String> = channels.iter().map(|channel| channel.label.clone()).collect();
     let about = found.about.clone();
-    Ok(Accelerogram { format, about, channels, record: reading.complete()? })
+    reading.accelerogram(Said { format, unit, about, components, chosen })
 }
 
-/// The channel with that number, else the one at that place; without a number the first.
-fn choose<'c, 't>(channels: &'c [Channel<'t>], number: Option<usize>) -> Option<&'c Channel<'t>> {
-    let Some(number) = number else { return channels.first() };
-    let named = channels.iter().find(|channel| channel.number == Some(number));
-    named.or_else(|| channels.get(number.checked_sub(1)?))
+/// The place of the channel that is wanted: by its number or name, else its place; without any the first.
+fn choose(channels: &[Component], wanted: Option<&Column>) -> Option<usize> {
+    match wanted {
+        None => (!channels.is_empty()).then_some(0),
+        Some(wanted) => components::named(channels, wanted).or(match wanted {
+            Column::Number(number) => number.checked_sub(1).filter(|place| *place < channels.len()),
+            Column::Name(_) => None,
+        }),
+    }
 }
 
-fn unknown(channels: &[Channel<'_>], number: Option<usize>, others: usize) -> String {
-    match (channels.len(), number) {
+fn unknown(channels: &[Component], wanted: Option<&Column>, others: usize) -> String {
+    match (channels.len(), wanted) {
         (0, _) if others > 0 => {
             "velocity, displacement or an uncorrected accelerogram: expected a block of acceleration".to_owned()
         }
@@ -61,10 +68,10 @@ fn unknown(channels: &[Channel<'_>], number: Option<usize>, others: usize) -> St
                 "cut off within its headers or of another format: expected a block of acceleration, after a line such as {line}"
             )
         }
-        (count, number) => {
-            let labels: Vec<&str> = channels.iter().take(20).map(|channel| channel.label.as_str()).collect();
-            let number = number.unwrap_or_default();
-            format!("#{number}: expected one of its {count} channels: {}", labels.join("; "))
+        (count, wanted) => {
+            let labels: Vec<&str> = channels.iter().take(20).map(|channel| channel.name.as_str()).collect();
+            let wanted = wanted.map_or_else(String::new, Column::to_string);
+            format!("#{wanted}: expected one of its {count} channels: {}", labels.join("; "))
         }
     }
 }
@@ -176,6 +183,10 @@ impl<'t> Channel<'t> {
             line,
             reals: real_header(header),
         }
+    }
+
+    fn component(&self) -> Component {
+        Component::new(self.number.unwrap_or(0), self.label.as_str())
     }
 
     /// s from sample to sample.

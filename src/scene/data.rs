@@ -7,7 +7,8 @@ use super::link::Link;
 use super::problem::{Problem, number};
 use super::rule;
 use super::units::Units;
-use crate::record::Record;
+use crate::figures::short;
+use crate::record::{Record, RecordOptions};
 
 /// A scene whose numbers have been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,6 +162,8 @@ pub enum Damping {
 pub struct Ground {
     /// Record file as written in the scene; `None`: the acceleration is an FMI input.
     pub record: Option<String>,
+    /// What the scene says about that file.
+    pub options: RecordOptions,
     /// Factor on the record, or the peak that it is scaled to.
     pub scaling: Scaling,
 }
@@ -229,9 +232,18 @@ impl Scaling {
     ///
     /// # Errors
     /// The problem, at `ground.scale` or `ground.pga`, where there is no such factor: an all-zero record has no peak to
-    /// scale, and accelerations go up to [`rule::MOST_ACCELERATION`].
+    /// scale, that of one with an offset is not its own, and accelerations go up to [`rule::MOST_ACCELERATION`].
     pub fn factor(self, record: &Record) -> Result<f64, Problem> {
         let peak = record.peak();
+        if let (Scaling::Pga(pga), Some(mean)) = (self, record.offset()) {
+            let expected = format!(
+                "a record about 0, but the mean of this one is {} m/s2 and its peak {} m/s2: remove_mean takes it away, as in \
+                 record = {{ file = ..., remove_mean = true }}",
+                short(mean),
+                short(peak)
+            );
+            return Err(Problem::new("ground.pga", number(pga), expected));
+        }
         let (path, value, factor) = match self {
             Scaling::Scale(scale) => ("ground.scale", scale, scale),
             Scaling::Pga(pga) => ("ground.pga", pga, pga / peak),

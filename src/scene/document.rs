@@ -248,9 +248,13 @@ impl<'t> Item<'t> {
 
     /// A whole number, 0 included, about which nothing has been said; `None` where that has been done.
     pub(super) fn whole(&self) -> Option<usize> {
-        let integer = self.value.get_ref().as_integer();
-        let value = integer.and_then(|integer| usize::from_str_radix(integer.as_str(), integer.radix()).ok());
-        self.found(value, "a whole number from 1 on")
+        self.found(self.whole_number(), "a whole number from 1 on")
+    }
+
+    /// A whole number, 0 included; nothing is said where it is none.
+    pub(super) fn whole_number(&self) -> Option<usize> {
+        let integer = self.value.get_ref().as_integer()?;
+        usize::from_str_radix(integer.as_str(), integer.radix()).ok()
     }
 
     /// Neutral: false.
@@ -259,7 +263,12 @@ impl<'t> Item<'t> {
     }
 
     pub(super) fn text(&self) -> Option<&'t str> {
-        self.found(self.value.get_ref().as_str(), "text in quotation marks")
+        self.text_or("text in quotation marks")
+    }
+
+    /// A text; `expected` says what instead of another value.
+    pub(super) fn text_or(&self, expected: &str) -> Option<&'t str> {
+        self.found(self.value.get_ref().as_str(), expected)
     }
 
     /// What one of some names stands for; `what` says what kind of name is expected.
@@ -306,6 +315,16 @@ impl<'t> Item<'t> {
             Some("ratios") => "mode",
             _ => "floor",
         }
+    }
+
+    /// Whether it is a text.
+    pub(super) fn is_text(&self) -> bool {
+        self.value.get_ref().is_str()
+    }
+
+    /// Whether it is a table.
+    pub(super) fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
     }
 
     /// Whether it is a number.

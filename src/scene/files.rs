@@ -3,7 +3,7 @@
 use super::data::{Scaling, Scene};
 use super::problem::{Problem, SceneError, quoted};
 use super::read::Draft;
-use crate::record::{Format, Record, RecordError, RecordFile};
+use crate::record::{Column, Format, Record, RecordError, RecordFile};
 use std::fs;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub struct Package {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackagedRecord {
     /// File name in `resources/`: `record.csv`, `record.at2`, or `record.txt` for the other formats; `record_channel_2.txt`
-    /// where that channel has been asked for.
+    /// where the name asks for that channel, `record_channel.txt` where it asks for one by its name.
     pub resource_name: String,
     /// The file, verbatim.
     pub bytes: Vec<u8>,
@@ -35,32 +35,36 @@ pub(crate) const SCENE_RESOURCE: &str = "scene.toml";
 
 const RECORD_RESOURCES: [&str; 3] = ["record.csv", "record.at2", "record.txt"];
 
-fn record_resource(format: Format, channel: Option<usize>) -> String {
+fn record_resource(format: Format, column: Option<&Column>) -> String {
     let [csv, at2, other] = RECORD_RESOURCES;
-    match (format, channel) {
-        (Format::Csmip | Format::Cosmos, Some(number)) => channel_resource(number),
+    match (format, column) {
+        (_, Some(column)) => channel_resource(column),
         (Format::Csv, _) => csv.to_owned(),
         (Format::PeerAt2, _) => at2.to_owned(),
         _ => other.to_owned(),
     }
 }
 
-fn channel_resource(number: usize) -> String {
-    format!("record_channel_{number}.txt")
+fn channel_resource(column: &Column) -> String {
+    match column {
+        Column::Number(number) => format!("record_channel_{number}.txt"),
+        // It may hold what no file name may.
+        Column::Name(_) => "record_channel.txt".to_owned(),
+    }
 }
 
 /// The record file in a folder of resources, as it was asked for in the scene.
 fn packaged_file(name: &str, folder: &Path) -> Result<RecordFile, SceneError> {
-    let channel = RecordFile::channel_of(name).filter(|number| folder.join(channel_resource(*number)).exists());
-    let place = match channel {
-        Some(number) => folder.join(channel_resource(number)),
+    let column = RecordFile::column_of(name).filter(|column| folder.join(channel_resource(column)).exists());
+    let place = match &column {
+        Some(column) => folder.join(channel_resource(column)),
         None => {
             let known = RECORD_RESOURCES.map(|resource| folder.join(resource));
             let [usual, ..] = &known;
             known.iter().find(|path| path.exists()).unwrap_or(usual).clone()
         }
     };
-    Ok(RecordFile { channel, ..read_record_file(name, &place)? })
+    Ok(RecordFile { column, ..read_record_file(name, &place)? })
 }
 
 /// Reads a scene file and the record that it names, without what only an FMU needs.
@@ -124,7 +128,8 @@ impl Package {
         let mut record = None;
         let is_name = |name: &String| !name.contains(char::is_control);
         if let Some(name) = draft.scene.ground.record.clone().filter(is_name) {
-            match file(&name).and_then(|file| read_record(&name, file, draft.scene.ground.scaling)) {
+            let ground = &draft.scene.ground;
+            match file(&name).and_then(|file| read_record(&name, file.with(&ground.options), ground.scaling)) {
                 Ok(packaged) => record = Some(packaged),
                 Err(error) => draft.add(error.problems),
             }
@@ -141,7 +146,7 @@ impl PackagedRecord {
     /// As [`Record::parse`].
     pub fn new(file: RecordFile) -> Result<PackagedRecord, RecordError> {
         let found = file.parse()?;
-        let resource_name = record_resource(found.format, file.channel);
+        let resource_name = record_resource(found.format, file.column.as_ref());
         Ok(PackagedRecord { resource_name, bytes: file.bytes, record: found.record })
     }
 

@@ -6,7 +6,7 @@ use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
 use super::units::{self, Units};
-use super::{check, read_contacts, read_foundation, read_links, rule};
+use super::{check, read_contacts, read_foundation, read_links, read_record, rule};
 use std::collections::{HashMap, HashSet};
 
 impl Scene {
@@ -324,8 +324,8 @@ fn ground(mut section: Section<'_>) -> Ground {
         (None, Some(pga)) => Scaling::Pga(pga.number()),
         (None, None) => Scaling::Scale(1.0),
     };
-    let record = record.and_then(|item| item.text()).map(str::to_owned);
-    Ground { record, scaling }
+    let (record, options) = record.map(|item| read_record::source(&item)).unwrap_or_default();
+    Ground { record, options, scaling }
 }
 
 /// Whether floors have external forces.

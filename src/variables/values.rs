@@ -7,7 +7,7 @@ use crate::FmiVersion;
 use crate::engine::Side;
 use crate::record::{KnownRecords, Record};
 use crate::scene::{
-    Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
+    Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems, record_source,
 };
 use crate::structure::period_ratio;
 use crate::warnings::{self, Warning};
@@ -282,8 +282,9 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        let file = read_record_file(path, Path::new(path))?;
-        let record = self.known_records.read(file).map_err(|error| record_problems(path, error))?;
+        let (name, options) = record_source(path)?;
+        let file = read_record_file(&name, Path::new(&name))?.with(&options);
+        let record = self.known_records.read(file).map_err(|error| record_problems(&name, error))?;
         self.set_record(path, record)
     }
 

@@ -7,7 +7,7 @@ use crate::record::{Record, STANDARD_GRAVITY};
 use crate::scene::{Scaling, quoted};
 use crate::structure::Side;
 
-/// In g: the smallest peak of a ground motion that buildings feel, and the largest that has been recorded.
+/// In g: the smallest peak of a ground motion that harms buildings, and the largest that has been recorded.
 const LEAST_PEAK: f64 = 0.05;
 const MOST_PEAK: f64 = 3.0;
 /// Samples from which on a record is a measured one and not a few corners drawn by hand.
@@ -19,6 +19,8 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         if found.has("ground.record") {
             return;
         }
+        look_at_component(facts, record, found);
+        look_at_level(facts, record, found);
         look_at_peak(facts, record, found);
     }
     match (facts.scene.stop_time, facts.record) {
@@ -69,6 +71,32 @@ fn name<'a>(facts: &Facts<'a>) -> &'a str {
     facts.scene.ground.record.as_deref().unwrap_or_default()
 }
 
+/// Buildings here sway; what lifts them is another motion.
+fn look_at_component(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+    if record.is_vertical() {
+        let text =
+            format!("its component {} is vertical; the ground moves horizontally here", quoted(&record.component));
+        found.add("ground.record", quoted(name(facts)), text);
+    }
+}
+
+/// A mean of the instrument, or numbers of one sign, which are no motion.
+fn look_at_level(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+    let Some(mean) = record.offset() else { return };
+    let is_one_sided = record.accelerations.iter().all(|a| *a >= 0.0) || record.accelerations.iter().all(|a| *a <= 0.0);
+    let share = short(100.0 * mean.abs() / record.peak());
+    let text = if is_one_sided && record.times.len() >= MEASURED {
+        "all its numbers are of one sign, which no ground motion is: is it a spectrum, or does it have an offset?"
+            .to_owned()
+    } else {
+        format!(
+            "its mean is {} m/s2, {share} % of its peak, under which the buildings lean: remove_mean = true takes it away",
+            short(mean)
+        )
+    };
+    found.add("ground.record", quoted(name(facts)), text);
+}
+
 /// In any case.
 fn ends_with(name: &str, extension: &str) -> bool {
     name.to_ascii_lowercase().ends_with(extension)
@@ -85,7 +113,7 @@ fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
     let found_here = format!("the ground shakes with at most {} m/s2, {} g", short(peak), short(shaken));
     let meaning = match shaken {
         _ if stands_still => "the ground stands still".to_owned(),
-        g if g < LEAST_PEAK => format!("{found_here}: hardly to be felt"),
+        g if g < LEAST_PEAK => format!("{found_here}: weak, felt by people but no harm to buildings"),
         g if g > MOST_PEAK => format!("{found_here}: earthquakes reach 1 g, hardly ever 2 g"),
         _ if is_converted_twice(facts, shaken) => {
             format!("{found_here}: as if it had been turned from g into m/s2 twice")

@@ -25,7 +25,7 @@ pub fn free_impact((left, right): (f64, f64), law: &str, speed: f64) -> Scene {
 
 /// A record with evenly spaced samples from t = 0.
 pub fn record(step: f64, accelerations: &[f64]) -> Record {
-    Record { times: (0..accelerations.len()).map(|k| k as f64 * step).collect(), accelerations: accelerations.to_vec() }
+    Record::new((0..accelerations.len()).map(|k| k as f64 * step).collect(), accelerations.to_vec())
 }
 
 /// A run with all that it reported.

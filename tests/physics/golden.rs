@@ -188,7 +188,7 @@ fn compare_forces(scene_path: &str, name: &str, allowed: f64) {
             }
         }
     };
-    let Record { times, accelerations } = &record;
+    let Record { times, accelerations, .. } = &record;
     let advance = |run: &mut Run, until: f64| {
         while run.state.time() < until {
             let time = run.state.time();

@@ -114,7 +114,7 @@ fn a_fall_at_a_communication_point_or_a_sample() {
         assert!(seen(run.to(20.0)) == bits, "by {last} s");
     }
     for sample in [end - 1e-9, end.next_down().next_down(), end.next_down(), end, end.next_up(), end + 1e-9] {
-        let record = Record { times: vec![0.0, sample, sample + 1.0], accelerations: vec![0.0; 3] };
+        let record = Record::new(vec![0.0, sample, sample + 1.0], vec![0.0; 3]);
         let mut run = Run::new(&scene, Some(&record));
         run.to(20.0);
         assert!((collapse(&run).time - end).abs() < 1e-14, "a sample at {sample} s: {:?}, not {end}", collapse(&run));

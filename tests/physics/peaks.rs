@@ -204,7 +204,7 @@ fn a_ramp_of_any_length_has_the_peaks_of_its_readings() {
     for exponent in 5..=9 {
         let (start, length) = (0.1358, 0.1_f64.powi(exponent));
         let times = vec![0.0, start, start + length, 0.3];
-        let record = Record { times, accelerations: vec![-0.28, -0.28, 5.7, 5.7] };
+        let record = Record::new(times, vec![-0.28, -0.28, 5.7, 5.7]);
         let mut run = Run::new(&scene, Some(&record));
         let mut largest = 0.0_f64;
         for k in 0..=2000 {

@@ -25,7 +25,7 @@ fn el_centro() -> Record {
 
 fn uneven() -> Record {
     let times = [0.07817437623771502, 0.13879673678168455, 0.1526350028822538, 0.1740234927397743];
-    Record { times: times.to_vec(), accelerations: vec![-0.412664, -0.238105, -0.0534462, 0.131213] }
+    Record::new(times.to_vec(), vec![-0.412664, -0.238105, -0.0534462, 0.131213])
 }
 
 /// The scene in steps of several lengths to `stop`, s, and with a record, whose steps are the engine's own, in one step too:
@@ -74,7 +74,7 @@ fn modes_that_settle_have_the_peaks_of_every_step() {
 fn a_long_flight_has_the_peaks_of_every_step() {
     let mut scene = scene(LONG_FLIGHT);
     scene.ground.record = Some("r.csv".into());
-    check_scene(&scene, Some(&Record { times: vec![0.0, 5.0], accelerations: vec![0.0, 0.3] }), 1.2);
+    check_scene(&scene, Some(&Record::new(vec![0.0, 5.0], vec![0.0, 0.3])), 1.2);
 }
 
 /// A contact closes while a storey yields, without the double series of an entry: just after it the power series of a damped

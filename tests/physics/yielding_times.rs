@@ -9,7 +9,7 @@ use pounding::record::Record;
 
 /// A ground that rests, with a sample at this time too.
 fn rest_with(time: f64) -> Record {
-    Record { times: vec![0.0, time, 2.0 * time, 9.0], accelerations: vec![0.0; 4] }
+    Record::new(vec![0.0, time, 2.0 * time, 9.0], vec![0.0; 4])
 }
 
 fn beside(time: f64, ulps: i64) -> f64 {
@@ -53,7 +53,7 @@ fn a_yield_and_its_turn_within_one_sample() {
     for beyond in [1e-3, 1e-5, 1e-7] {
         for times in [vec![0.0, 1.0, 2.0, 3.0], vec![0.0, 0.07, 0.1, 3.0]] {
             let one = OneStorey { rate: 0.1 * (1.0 + beyond), ..OneStorey::USUAL };
-            let (mut scene, rest) = (one.scene(), Record { accelerations: vec![0.0; times.len()], times });
+            let (mut scene, rest) = (one.scene(), Record::new(times.clone(), vec![0.0; times.len()]));
             scene.ground.record = Some("rest.csv".into());
             let mut run = Run::new(&scene, Some(&rest));
             // (v0^2 - w^2 limit^2) / (2 w^2 limit)

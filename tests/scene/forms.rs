@@ -124,10 +124,10 @@ fn the_edges_of_every_range_are_allowed() {
 
 #[test]
 fn scaling_gives_one_factor() {
-    let record = Record { times: vec![0.0, 1.0, 2.0], accelerations: vec![1.0, -4.0, 2.0] };
+    let record = Record::new(vec![0.0, 1.0, 2.0], vec![1.0, -4.0, 2.0]);
     assert_eq!(Scaling::Scale(-2.5).factor(&record), Ok(-2.5));
     assert_eq!(Scaling::Pga(1.0).factor(&record), Ok(0.25));
-    let flat = Record { times: vec![0.0, 1.0], accelerations: vec![0.0, 0.0] };
+    let flat = Record::new(vec![0.0, 1.0], vec![0.0, 0.0]);
     assert_eq!(Scaling::Scale(2.0).factor(&flat), Ok(2.0));
     let refused = |scaling: Scaling, record| scaling.factor(record).unwrap_err().to_string();
     let expected = "ground.pga = 3.0: expected a record with a peak, but all its accelerations are 0";

@@ -1,6 +1,6 @@
 //! Record files: every form that is found in the wild, every refusal with its words.
 
-use pounding::record::{Accelerogram, Format, Record};
+use pounding::record::{Accelerogram, Format, Record, RecordOptions};
 use proptest::prelude::*;
 
 const HEADERS: [&str; 6] = [
@@ -32,7 +32,8 @@ fn refused(name: &str, text: impl AsRef<[u8]>) -> String {
 
 #[test]
 fn the_content_tells_the_format() {
-    let format = |name: &str, text: &str| Accelerogram::parse(name, None, text.as_bytes()).unwrap().format;
+    let format =
+        |name: &str, text: &str| Accelerogram::parse(name, &RecordOptions::default(), text.as_bytes()).unwrap().format;
     for name in ["a.csv", "a.AT2", "a.txt", "at2", ""] {
         assert_eq!(format(name, &csv("0,1\n1,2\n")), Format::Csv);
         assert_eq!(format(name, &at2(HEADERS[0], "1 2 3 4")), Format::PeerAt2);
@@ -223,7 +224,7 @@ proptest! {
     /// What is printed with all its digits reads back as the same numbers.
     #[test]
     fn csv_keeps_every_bit(steps in proptest::collection::vec((1e-4_f64..0.1, -20.0_f64..20.0), 2..50)) {
-        let mut record = Record { times: vec![], accelerations: vec![] };
+        let mut record = Record::default();
         let mut text = csv("");
         for (step, acceleration) in steps {
             let time = record.times.last().unwrap_or(&0.0) + step;

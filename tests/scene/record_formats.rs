@@ -1,13 +1,17 @@
 //! Records as networks hand them out, in the exact layout of each: values by hand or from exact fractions.
 
-use pounding::record::{Accelerogram, Format};
+use pounding::record::{Accelerogram, Column, Format, RecordOptions};
 
 fn read(channel: Option<usize>, bytes: impl AsRef<[u8]>) -> Accelerogram {
-    Accelerogram::parse("download", channel, bytes.as_ref()).unwrap()
+    Accelerogram::parse("download", &of_channel(channel), bytes.as_ref()).unwrap()
 }
 
 fn refused(channel: Option<usize>, bytes: impl AsRef<[u8]>) -> Vec<String> {
-    Accelerogram::parse("download", channel, bytes.as_ref()).unwrap_err().problems
+    Accelerogram::parse("download", &of_channel(channel), bytes.as_ref()).unwrap_err().problems
+}
+
+fn of_channel(channel: Option<usize>) -> RecordOptions {
+    RecordOptions { column: channel.map(Column::Number), ..RecordOptions::default() }
 }
 
 const KNET: &str = "\

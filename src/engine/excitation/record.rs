@@ -264,7 +264,7 @@ mod tests {
         let scene = format!("name = \"Two\"\n[left]\n{building}[right]\n{building}");
         let scene = Scene::from_toml(&scene).unwrap();
         let structure = Structure::of(&scene).ok().unwrap();
-        let record = Record { accelerations: times.iter().map(|time| time.sin()).collect(), times };
+        let record = Record::new(times.clone(), times.iter().map(|time| time.sin()).collect());
         GroundMotion::new(&record, 1.0, &structure, true)
     }
 

@@ -173,7 +173,7 @@ impl Case {
         // The shorter a pulse is, the nearer its motion comes to what all of it at once would do.
         let first = if matches!(ground, Ground::Pulse(_)) { 0.05 * segment } else { segment };
         let times = (0..=SEGMENTS).map(|k| if k == 0 { 0.0 } else { first + segment * (k - 1) as f64 }).collect();
-        let record = Record { accelerations: samples, times };
+        let record = Record::new(times, samples);
         let system = System::of(&scene, Some(&record)).unwrap();
         let mut base = system.start(0.0, Peaks::default(), None);
         let mut work = Buffers::new(&system.structure, system.rigid.pairs.len());

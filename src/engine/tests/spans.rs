@@ -54,7 +54,7 @@ impl Case {
         let times = (0..=SAMPLES).map(|k| k as f64 * SAMPLE).collect();
         let accelerations = (0..=SAMPLES).map(|_| random.between(-3.0, 3.0)).collect();
         let scene = Scene::from_toml(&text).unwrap();
-        let model = Model::new(&scene, Some(&Record { times, accelerations })).unwrap();
+        let model = Model::new(&scene, Some(&Record::new(times, accelerations))).unwrap();
         let floors = if has_forces { model.system.structure.floors_of_both() } else { 0 };
         let log = FlightLog::new(model.system.structure.lanes, floors);
         Case { model, log, end: (Vec::new(), Vec::new()) }

@@ -428,7 +428,7 @@ fn changes_of_parameters_are_checked_like_a_master_s() {
         slave.deserialize_state(&bytes, None).map_err(|refusal| refusal.problems.join("; "))
     };
     let record = |times: &[f64], accelerations: &[f64]| {
-        let record = crate::record::Record { times: times.to_vec(), accelerations: accelerations.to_vec() };
+        let record = crate::record::Record::new(times.to_vec(), accelerations.to_vec());
         Some(("other.csv".to_owned(), record))
     };
     assert!(with(&[(gap, 0.01)], record(&[0.0, 1.0], &[0.0, 0.0])).is_ok());

@@ -192,7 +192,7 @@ fn of_references() -> Vec<Row> {
         let (times, accelerations) = (even.times.iter().zip(&even.accelerations).enumerate())
             .filter_map(|(k, (time, a))| is_kept(k).then_some((time + 0.003 * (k % 3) as f64, *a)))
             .unzip();
-        Record { times, accelerations }
+        Record::new(times, accelerations)
     };
     vec![
         Row::new("contacts of every kind", shaken(FRAMES, 5, 4.0)).impacts(20).rounding(1e-13),

@@ -86,7 +86,7 @@ fn on_a_sample_and_at_a_communication_point() {
             let time = f64::from_bits(switch.time.to_bits().wrapping_add_signed(ulps));
             let mut sampled = scene();
             sampled.ground.record = Some("rest.csv".into());
-            let rest = Record { times: vec![0.0, time, 2.0 * time, 9.0], accelerations: vec![0.0; 4] };
+            let rest = Record::new(vec![0.0, time, 2.0 * time, 9.0], vec![0.0; 4]);
             for mut run in [Run::new(&sampled, Some(&rest)), Run::new(&scene(), None)] {
                 for later in [time, time + 1e-10, time + 0.1, time + 1.0, time + 3.0] {
                     assert_like(run.to(later), &start.at(later), &format!("{ulps} ulps from {} s", switch.time));

@@ -167,7 +167,7 @@ impl Piecewise<'_> {
 
     /// The ground acceleration at the last sample up to now, its slope, and the time of the next one.
     fn ground(&self, sample: usize) -> ((f64, f64), f64) {
-        let Record { times, accelerations } = self.record;
+        let Record { times, accelerations, .. } = self.record;
         match times.get(sample + 1) {
             Some(&next) => {
                 let slope = (accelerations[sample + 1] - accelerations[sample]) / (next - times[sample]);

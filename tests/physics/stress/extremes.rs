@@ -119,7 +119,7 @@ impl Extreme {
         let samples = (DURATION / self.spacing).round() as u32;
         let times: Vec<f64> = (0..=samples).map(|k| f64::from(k) * self.spacing).collect();
         let accelerations = times.iter().map(|t| 2.5 * (7.0 * t).sin() + 1.5 * (21.4 * t).sin()).collect();
-        Record { times, accelerations }
+        Record::new(times, accelerations)
     }
 
     /// Runs it in one communication step.

@@ -88,9 +88,9 @@ pub fn shaking() -> Record {
 #[test]
 fn decimal_times_at_a_million_seconds_lose_no_more_than_their_digits() {
     let accelerations = shaking().accelerations;
-    let record = |start: f64| Record {
-        times: (0..accelerations.len()).map(|k| start + 0.01 * k as f64).collect(),
-        accelerations: accelerations.clone(),
+    let record = |start: f64| {
+        let times = (0..accelerations.len()).map(|k| start + 0.01 * k as f64).collect();
+        Record::new(times, accelerations.clone())
     };
     for law in &laws() {
         let [now, later] = [0.0, 1e6].map(|start| {
@@ -154,7 +154,7 @@ fn an_input_that_jumps_in_mid_contact_moves_free_masses_alike() {
 #[test]
 fn samples_added_on_the_lines_between_samples_change_nothing() {
     let even = shaking();
-    let mut uneven = Record { times: vec![], accelerations: vec![] };
+    let mut uneven = Record::default();
     for (k, (times, accelerations)) in even.times.windows(2).zip(even.accelerations.windows(2)).enumerate() {
         for share in [0.0, 2f64.powi(-(k as i32 % 30) - 1), 0.625, 1.0 - 2f64.powi(-(k as i32 % 17) - 2)] {
             let time = times[0] + share * (times[1] - times[0]);
