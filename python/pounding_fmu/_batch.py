@@ -171,6 +171,8 @@ def _identity(record: Any) -> object:
     """What two records have in common that are read once."""
     if record is None or isinstance(record, (str, os.PathLike)):
         return record and os.fsdecode(record)
+    if isinstance(record, Mapping):
+        return tuple((name, str(value)) for name, value in record.items())
     if isinstance(record, (tuple, list)):
         return tuple(id(column) for column in record)
     return id(record)  # rows of an array are objects that last no longer than a look at them
@@ -178,7 +180,7 @@ def _identity(record: Any) -> object:
 
 def _is_one(records: Any) -> bool:
     """Whether it is one record and not a sequence of them: a path, or a pair whose first half is numbers."""
-    if isinstance(records, (str, os.PathLike)):
+    if isinstance(records, (str, os.PathLike, Mapping)):
         return True
     try:
         times, _ = records

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     Scene: TypeAlias = "str | os.PathLike[str] | Mapping[str, Any]"
-    Record: TypeAlias = "str | os.PathLike[str] | tuple[ArrayLike, ArrayLike]"
+    Record: TypeAlias = "str | os.PathLike[str] | Mapping[str, Any] | tuple[ArrayLike, ArrayLike]"
 
 MOST_PROBLEMS = 20
 SECONDS = f"a number of seconds > 0 and at most {_native.MOST_TIME:g}"
@@ -226,14 +226,24 @@ def names_of(outputs: Iterable[str]) -> list[str]:
     return list(outputs)
 
 
+def record_dict(record: str | os.PathLike[str] | Mapping[str, Any], key: str) -> dict[str, Any]:
+    """File and options of a record; those that are None are not there."""
+    if not isinstance(record, Mapping):
+        return {"file": file_path(key, record)}
+    source = {str(name): value for name, value in record.items() if value is not None}
+    if isinstance(source.get("file"), (str, os.PathLike)):
+        source["file"] = file_path(key, source["file"])
+    return source
+
+
 def read_record(record: Record, key: str) -> _native.Record:
-    """The record of a path or of a pair of arrays; `key` is what messages call it."""
-    if isinstance(record, (str, os.PathLike)):
-        path = file_path(key, record)
+    """The record of a path, of a dict as a scene has it, or of a pair of arrays; `key` is what messages call it."""
+    if isinstance(record, (str, os.PathLike, Mapping)):
+        source = record_dict(record, key)
         try:
-            return _native.Record.read(path, key)
+            return _native.Record.read_dict(source, key) if len(source) > 1 else _native.Record.read(source["file"], key)
         except OSError:
-            with open(path, "rb"):  # which says it with the name of the file
+            with open(source["file"], "rb"):  # which says it with the name of the file
                 raise
     import numpy as np
 
@@ -244,5 +254,6 @@ def read_record(record: Record, key: str) -> _native.Record:
     except (TypeError, ValueError):
         arrays = []
     if [array.ndim for array in arrays] != [1, 1]:
-        raise ValueError(f"{key}: expected a path or a pair of arrays, times in s and accelerations in m/s2")
+        expected = "a path, a dict with a file, or a pair of arrays, times in s and accelerations in m/s2"
+        raise ValueError(f"{key}: expected {expected}")
     return _native.Record.of(arrays[0], arrays[1], key)

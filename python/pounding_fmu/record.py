@@ -6,11 +6,12 @@ import argparse
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _native
+from . import _native, _record_options
 from ._extras import require
 from ._scenes import read_record as read_native
+from ._scenes import warn
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,15 +24,33 @@ PERIODS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)  #
 PICTURE_PERIODS = 100
 LARGEST = 1e100  # m/s2: no ground moves like that, and much larger squares overflow
 PICTURES = (".png", ".svg", ".pdf")
-# A mean is not about 0 from this share of the peak on, or where the velocity that it leaves at the end is this share of
-# the largest that the rest of the motion has.
-OFFSET, DRIFT = 0.01, 0.25
 
 
-def read_record(path: str | os.PathLike[str]) -> tuple[Numbers, Numbers]:
+def read_record(
+    path: str | os.PathLike[str],
+    *,
+    step: float | None = None,
+    unit: str | None = None,
+    column: int | str | None = None,
+    skip_lines: int | None = None,
+    remove_mean: bool | None = None,
+) -> tuple[Numbers, Numbers]:
     """The times (s) and accelerations (m/s2) of a record file of any format that scenes know.
 
-    ``"file.v2#2"`` is the second channel of a file that has several. Nothing is corrected: baseline and mean stay.
+    Nothing is corrected: baseline and mean stay, unless ``remove_mean`` takes the mean of the samples away.
+
+    Args:
+        path: the file; ``"file.v2#2"`` is the second channel, or column, of one that has several, ``"file.csv#EW"`` that
+            with this name.
+        step: s from sample to sample, of a file without times; the first sample is at 0.
+        unit: of the accelerations in it: ``m/s2``, ``cm/s2`` (``gal``), ``mm/s2``, ``g``, ``%g``, ``mg``, ``g/10``, ``ft/s2``,
+            ``in/s2``.
+        column: which of several, by number (from 1, that of the times counts) or name. Without it a file of many numbers
+            in a line and no times is one sequence, line after line.
+        skip_lines: lines above the numbers that are not read: nothing in the file counts then but numbers.
+        remove_mean: whether the mean of the samples is taken away.
+
+    What the file says itself is compared with these: a contradiction is a ``ValueError``.
 
     >>> import pounding_fmu
     >>> time, acceleration = read_record(pounding_fmu.example_scene.parent.parent / "records/el_centro_1940_ns.csv")
@@ -42,7 +61,8 @@ def read_record(path: str | os.PathLike[str]) -> tuple[Numbers, Numbers]:
         ValueError: everything that is wrong with the file, each with its line.
         OSError: the file cannot be read.
     """
-    return read_native(path, "record").samples()
+    said = {"step": step, "unit": unit, "column": column, "skip_lines": skip_lines, "remove_mean": remove_mean}
+    return read_native({"file": path, **said}, "record").samples()
 
 
 class Motion(NamedTuple):
@@ -55,18 +75,6 @@ class Motion(NamedTuple):
     def duration(self) -> float:
         return float(self.time[-1] - self.time[0])
 
-    @property
-    def mean(self) -> float:
-        """m/s2, of the samples."""
-        return math.fsum(self.acceleration) / len(self.acceleration)
-
-    def velocity(self) -> Numbers:
-        """m/s at the samples, from rest at the first."""
-        import numpy as np
-
-        rates = np.diff(self.time) * (self.acceleration[1:] + self.acceleration[:-1]) / 2
-        return np.concatenate([[0.0], np.cumsum(rates)])
-
     def arias_intensity(self) -> float:
         """m/s: pi / (2 g) times the integral of the squared acceleration [Arias1970], which is exact here."""
         import numpy as np
@@ -74,15 +82,6 @@ class Motion(NamedTuple):
         before, after = self.acceleration[:-1], self.acceleration[1:]
         integral = np.diff(self.time) * (before**2 + before * after + after**2) / 3
         return math.pi / (2 * STANDARD_GRAVITY) * math.fsum(integral)
-
-    def without_mean(self) -> Motion:
-        return Motion(self.time, self.acceleration - self.mean)
-
-    def has_offset(self) -> bool:
-        """Whether its mean is one of the instrument rather than of the ground."""
-        mean, peak = abs(self.mean), float(abs(self.acceleration).max())
-        left = DRIFT * float(abs(self.without_mean().velocity()).max())
-        return mean > 0.0 and (mean > OFFSET * peak or mean * self.duration > left)
 
 
 def main(arguments: list[str]) -> int:
@@ -92,14 +91,19 @@ def main(arguments: list[str]) -> int:
     if options.plot:
         require("matplotlib", "plot")
     _native.spare([("-o", options.output), ("--plot", options.plot)], [], [options.file])
-    motion = Motion(*read_record(options.file))
+    said = _record_options.of(options) | {"remove_mean": None}
+    record = read_native({"file": options.file, **said}, "record")
+    motion = Motion(*record.samples())
     if (peak := float(abs(motion.acceleration).max())) > LARGEST:
         raise ValueError(f"{options.file}: acceleration {peak:g} m/s2: expected at most {LARGEST:g} m/s2")
     print(options.file)
-    print("\n".join(origin(options.file)))
-    removed = motion.mean if options.remove_mean else None
-    motion = motion if removed is None else motion.without_mean()
-    print("\n".join([*described(motion, removed), "", *spectrum(motion)]))
+    print("\n".join(origin({"file": options.file, **said}, record)))
+    removed = record.mean() if options.remove_mean else None
+    if removed is not None:
+        motion = Motion(*read_native({"file": options.file, **said, "remove_mean": True}, "record").samples())
+    print("\n".join([*described(motion, mean_of(record, removed)), "", *spectrum(motion)]))
+    # The line of the mean says what is to be said about it.
+    warn(f"record = {options.file!r}: {text}" for text in record.warnings() if record.offset() is None)
     if options.output:
         write(options.output, motion, options.file, removed)
         print(f"\n{options.output}: {len(motion.time)} samples, time_s,accel_m_s2")
@@ -113,22 +117,24 @@ def parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pounding-fmu record", description="Shows what is in a ground motion, of any format, and converts it to CSV."
     )
-    parser.add_argument("file", metavar="FILE", help="the record; FILE#2 is the second channel of one that has several")
+    about = "the record; FILE#2 is the second channel or column of one that has several, FILE#EW that with this name"
+    parser.add_argument("file", metavar="FILE", help=about)
     parser.add_argument("-o", "--output", type=Path, metavar="OUT.csv", help="writes it as CSV, in s and m/s2")
-    parser.add_argument("--remove-mean", action="store_true", help="takes the mean of the samples away first")
+    _record_options.add(parser, "the file does")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draws it and its spectrum; .png, .svg or .pdf")
     return parser
 
 
-def origin(file: str) -> list[str]:
+def origin(source: dict[str, Any], record: _native.Record) -> list[str]:
     """What the file says of itself, a line each."""
-    form, about, channels = _native.Record.about(file, "record")
-    lines = [("format", form), *([("about", about)] if about else [])]
+    form, unit, about, channels = _native.Record.about({name: said for name, said in source.items() if said is not None}, "record")
+    lines = [("format", f"{form}, in {unit}"), *([("about", about)] if about else [])]
+    lines += [("component", record.component())] if record.component() else []
     lines += [(f"channel {number}", name) for number, name in enumerate(channels, 1)]
     return [f"  {name:<12}{text}" for name, text in lines]
 
 
-def described(motion: Motion, removed: float | None) -> list[str]:
+def described(motion: Motion, mean: str) -> list[str]:
     """What is in it, a line each."""
     import numpy as np
 
@@ -144,19 +150,20 @@ def described(motion: Motion, removed: float | None) -> list[str]:
         ("peak", f"{in_both(abs(acceleration[peak]))}, at {time[peak]:.6g} s"),
         ("highest", f"{in_both(acceleration[highest])}, at {time[highest]:.6g} s"),
         ("lowest", f"{in_both(acceleration[lowest])}, at {time[lowest]:.6g} s"),
-        ("mean", mean_of(motion, removed)),
+        ("mean", mean),
         ("Arias", f"intensity {motion.arias_intensity():.5g} m/s"),
     ]
     return [f"  {name:<12}{text}" for name, text in lines]
 
 
-def mean_of(motion: Motion, removed: float | None) -> str:
+def mean_of(record: _native.Record, removed: float | None) -> str:
     if removed is not None:
         return f"{removed:.4g} m/s2 has been taken away; all numbers are of the rest"
-    if not motion.has_offset():
-        return f"{motion.mean:.4g} m/s2, about 0"
-    left = f"it leaves the ground at {motion.mean * motion.duration:.3g} m/s"
-    return f"{motion.mean:.4g} m/s2, not about 0: {left}; --remove-mean takes it away"
+    mean, drift = record.mean(), record.drift()
+    if record.offset() is None and drift is None:
+        return f"{mean:.4g} m/s2, about 0"
+    left = "" if drift is None else f": it leaves the ground at {drift:.3g} m/s"
+    return f"{mean:.4g} m/s2, not about 0{left}; --remove-mean takes it away"
 
 
 def in_both(acceleration: float) -> str:

@@ -1,10 +1,14 @@
 //! Records from files and arrays. The same content is read once: studies come back to the same files.
 
+use crate::document;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
-use pounding::record::{self, KnownRecords, RecordError, RecordFile};
+use pounding::record::{self, KnownRecords, RecordError, RecordFile, RecordOptions};
+use pounding::scene::record_table;
+use pounding::warnings;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::path::PathBuf;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A ground motion.
@@ -16,24 +20,31 @@ pub struct Record {
     pub record: Arc<record::Record>,
 }
 
+/// What a file says of itself: format, unit, station or title, and the names of its components.
+type About = (String, String, String, Vec<String>);
+
 #[pymethods]
 impl Record {
     /// That of a file; `key` is what a message calls it.
     #[staticmethod]
     fn read(file: PathBuf, key: &str) -> PyResult<Record> {
-        let name = file.to_string_lossy().into_owned();
-        let record = KNOWN.read(RecordFile::read(&file)?).map_err(|error| {
-            all(&error, |problem| format!("{key} = {name:?}: expected a record file, but {problem}"))
-        })?;
-        Ok(Record { name, record })
+        Record::of_file(&file, &RecordOptions::default(), key)
     }
 
-    /// What a file says of itself: format, station or title, and the names of its channels.
+    /// That of a dict with the keys of a scene's `ground.record`, its file as a path.
     #[staticmethod]
-    fn about(file: PathBuf, key: &str) -> PyResult<(String, String, Vec<String>)> {
-        let found = RecordFile::read(&file)?.parse();
+    fn read_dict(source: &Bound<'_, PyDict>, key: &str) -> PyResult<Record> {
+        let (file, options) = options_of(source, key)?;
+        Record::of_file(&file, &options, key)
+    }
+
+    /// What a file says of itself, which such a dict names.
+    #[staticmethod]
+    fn about(source: &Bound<'_, PyDict>, key: &str) -> PyResult<About> {
+        let (file, options) = options_of(source, key)?;
+        let found = RecordFile::read(&file)?.with(&options).parse();
         let found = found.map_err(|error| all(&error, |problem| format!("{key} = {file:?}: {problem}")))?;
-        Ok((found.format.to_string(), found.about, found.channels))
+        Ok((found.format.to_string(), found.unit.to_string(), found.about, found.channels))
     }
 
     /// That of two arrays, s and m/s2.
@@ -48,6 +59,50 @@ impl Record {
     fn samples<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
         (PyArray1::from_slice(py, &self.record.times), PyArray1::from_slice(py, &self.record.accelerations))
     }
+
+    /// m/s2, of its samples.
+    fn mean(&self) -> f64 {
+        self.record.mean()
+    }
+
+    /// m/s2, the mean, where it is a level about which the record stands.
+    fn offset(&self) -> Option<f64> {
+        self.record.offset()
+    }
+
+    /// m/s, the velocity that the mean leaves the ground with, where that is much beside the rest.
+    fn drift(&self) -> Option<f64> {
+        self.record.drift()
+    }
+
+    /// The component that has been read, as its file calls it.
+    fn component(&self) -> &str {
+        &self.record.component
+    }
+
+    /// What looks like a slip in it.
+    fn warnings(&self) -> Vec<String> {
+        warnings::of_record(&self.name, &self.record).iter().map(|warning| warning.text.clone()).collect()
+    }
+}
+
+impl Record {
+    fn of_file(file: &Path, options: &RecordOptions, key: &str) -> PyResult<Record> {
+        let name = file.to_string_lossy().into_owned();
+        let record = KNOWN.read(RecordFile::read(file)?.with(options)).map_err(|error| {
+            all(&error, |problem| format!("{key} = {name:?}: expected a record file, but {problem}"))
+        })?;
+        Ok(Record { name, record })
+    }
+}
+
+/// File and options of a dict as a scene has it.
+fn options_of(source: &Bound<'_, PyDict>, key: &str) -> PyResult<(PathBuf, RecordOptions)> {
+    let (name, options) = record_table(&document::to_toml(source)?).map_err(|error| {
+        let lines = error.problems.iter().map(|problem| problem.to_string().replacen("ground.record", key, 1));
+        PyValueError::new_err(lines.collect::<Vec<_>>().join("\n"))
+    })?;
+    Ok((name.into(), options))
 }
 
 /// Everything that is wrong with a record, a line each.

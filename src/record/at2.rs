@@ -8,6 +8,8 @@ use super::said::{self, SaidUnit};
 use super::unit::Unit;
 
 const HEADER_LINES: usize = 4;
+/// The way out where the accelerations are in another unit.
+const OTHERWISE: &str = ", or skip_lines, step and unit, which read the numbers below";
 /// A title that goes on makes more of them.
 const MOST_HEADER_LINES: usize = 10;
 
@@ -89,8 +91,10 @@ fn check_unit(header: &[(usize, &str)], reading: &mut Reading) {
         let is_other_motion =
             ["VELOCITY", "DISPLACEMENT"].iter().any(|word| text.contains(word)) && !text.contains("ACCEL");
         let is_gravity = |unit: &SaidUnit| *unit == SaidUnit::Known(Unit::Gravity);
-        if is_other || is_other_motion || !said::units(line).iter().all(is_gravity) {
-            reading.refuse(|| on_line(*number, format!("{}: expected UNITS OF G", excerpt(line))));
+        let units = said::units(line);
+        if is_other || is_other_motion || !units.iter().all(is_gravity) {
+            let otherwise = if is_other_motion || units.is_empty() { "" } else { OTHERWISE };
+            reading.refuse(|| on_line(*number, format!("{}: expected UNITS OF G{otherwise}", excerpt(line))));
         }
     }
 }

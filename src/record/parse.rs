@@ -75,9 +75,13 @@ fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelero
         () if knet::is_it(text) => one(knet::parse(text)),
         () if esm::is_it(text) => one(esm::parse(text)),
         () if at2::is_it(text) => one(at2::parse(text)),
-        () if volume2::has_title(text) => volume2::parse(text, wanted),
-        () if is_at2(name) && table::parse(text, options).is_none_or(|found| found.is_err()) => one(at2::parse(text)),
-        () => table::parse(text, options).unwrap_or_else(|| Err(unknown(text))),
+        () => match table::parse(text, options) {
+            Some(Ok(found)) => Ok(found),
+            _ if volume2::has_title(text) => volume2::parse(text, wanted),
+            _ if is_at2(name) => one(at2::parse(text)),
+            Some(Err(error)) => Err(error),
+            None => Err(unknown(text)),
+        },
     }
 }
 

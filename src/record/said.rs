@@ -26,9 +26,11 @@ pub(super) fn units(line: &str) -> Vec<SaidUnit> {
         return Vec::new();
     }
     let line = &line.to_lowercase();
-    let mut found: Vec<SaidUnit> = phrases(line).into_iter().filter_map(of_phrase).collect();
-    if found.is_empty() {
-        found.extend(of_names(line).map(SaidUnit::Known));
+    let mut found = Vec::new();
+    for unit in phrases(line).into_iter().filter_map(of_phrase).chain(of_names(line).map(SaidUnit::Known)) {
+        if !found.contains(&unit) {
+            found.push(unit);
+        }
     }
     found
 }
@@ -52,7 +54,7 @@ fn phrases(line: &str) -> Vec<&str> {
     // `cm/s2; dt = 0.005`, `Acceleration, g`, a unit in a line of its own.
     let pieces = || line.split([',', ';', '\t']).map(bare);
     let speaks_of_samples = |piece: &str| {
-        let words = ["acc", "dt", "step", "npts", "interval", "points", "samples", "hz"];
+        let words = ["time", "acc", "dt", "step", "npts", "interval", "points", "samples", "hz"];
         piece.is_empty() || Unit::read(piece).is_some() || words.iter().any(|word| piece.contains(word))
     };
     if pieces().all(speaks_of_samples) {
@@ -150,8 +152,8 @@ fn of_word(word: &str) -> Option<Unit> {
     }
     // a_g is how many write the acceleration of the ground.
     let ends = word.match_indices(['_', '/']).map(|(place, _)| (place, word.get(place + 1..).unwrap_or_default()));
-    let ends = ends.filter(|_| word != "a_g" && word.starts_with('a'));
-    ends.filter_map(|(_, end)| Unit::read(end)).next()
+    let may_be_name = |unit: &Unit| is_name(*unit) && (word == "a_g" || !word.starts_with('a'));
+    ends.filter_map(|(_, end)| Unit::read(end).filter(|unit| end.contains(['2', '/']) || !may_be_name(unit))).next()
 }
 
 /// s, where a line says it: `dt = 0.005`, `DT: 0.01 SEC`, `time step 0.02`, `sampling interval = 10 ms`, `200 Hz`.

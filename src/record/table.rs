@@ -41,6 +41,18 @@ struct Announced {
     step: Option<f64>,
 }
 
+/// The names of the columns, with their line: the last line that gives so many and is no comment, else a comment that speaks of
+/// times.
+fn names_above(lines: &[(usize, &str)], layout: &Layout) -> Option<(usize, Vec<String>)> {
+    const LOOKED_AT: usize = 3;
+    let names = |(line, text): &(usize, &str)| Some((*line, names::split(text, layout.separators, layout.columns)?));
+    let speaks =
+        |(_, names): &(usize, Vec<String>)| names.first().is_some_and(|name| names::kind(name) != names::Kind::Unknown);
+    let (comments, others): (Vec<_>, Vec<_>) = lines.iter().rev().partition(|(_, line)| is_comment(line));
+    let of_comments = || comments.into_iter().take(LOOKED_AT).filter_map(names).find(speaks);
+    others.into_iter().take(LOOKED_AT).find_map(names).or_else(of_comments)
+}
+
 /// `None` where the text holds no row of numbers.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Option<Result<Accelerogram, RecordError>> {
     let table = Table::read(text, options.skip_lines)?;
@@ -64,12 +76,7 @@ impl<'t> Table<'t> {
             let (count, step) = said::count_and_step(text)?;
             Some(Announced { line: *line, count, step: Some(step) })
         });
-        // The last line that is no comment, else the last one.
-        let named = last.iter().rev().filter(|(_, line)| !is_comment(line)).chain(last.iter().rev());
-        let names = named
-            .take(3)
-            .find_map(|(line, text)| Some((*line, names::split(text, layout.separators, layout.columns)?)));
-        let (names_line, names) = names.unwrap_or_default();
+        let (names_line, names) = names_above(&last, &layout).unwrap_or_default();
         Some(Table { text, lines: last, layout, names, names_line, announced: announced.or(said) })
     }
 

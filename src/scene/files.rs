@@ -126,7 +126,7 @@ impl Package {
     fn read(scene_text: String, file: impl Fn(&str) -> Result<RecordFile, SceneError>) -> Result<Package, SceneError> {
         let mut draft = Draft::read(&scene_text)?;
         let mut record = None;
-        let is_name = |name: &String| !name.contains(char::is_control);
+        let is_name = |name: &String| !name.contains(char::is_control) && !draft.is_wrong_at("ground.record");
         if let Some(name) = draft.scene.ground.record.clone().filter(is_name) {
             let ground = &draft.scene.ground;
             match file(&name).and_then(|file| read_record(&name, file.with(&ground.options), ground.scaling)) {

@@ -44,6 +44,11 @@ impl<'t> Draft<'t> {
         Ok(Draft { text, scene, problems })
     }
 
+    /// Whether something has been said about a value, or a part of it.
+    pub(super) fn is_wrong_at(&self, path: &str) -> bool {
+        self.problems.iter().any(|problem| problem.path.starts_with(path))
+    }
+
     /// Adds what has been found wrong later, but nothing more about a value of which something has been said before.
     pub(super) fn add(&mut self, problems: Vec<Problem>) {
         let is_new = |problem: &Problem| !self.problems.iter().any(|known| known.covers(&problem.path));

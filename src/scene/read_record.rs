@@ -57,9 +57,20 @@ pub(crate) fn record_source(text: &str) -> Result<(String, RecordOptions), Scene
     if !(trimmed.starts_with('{') && trimmed.ends_with('}')) || std::path::Path::new(text).exists() {
         return Ok((text.to_owned(), RecordOptions::default()));
     }
-    let text = format!("ground.record = {trimmed}");
-    let table = document::parse(&text)?;
-    let document = Document::new(&text);
+    in_scene(&format!("ground.record = {trimmed}"))
+}
+
+/// The same of the keys of such a table as lines of TOML.
+///
+/// # Errors
+/// All problems of them.
+pub fn record_table(lines: &str) -> Result<(String, RecordOptions), SceneError> {
+    in_scene(&format!("[ground.record]\n{lines}"))
+}
+
+fn in_scene(text: &str) -> Result<(String, RecordOptions), SceneError> {
+    let table = document::parse(text)?;
+    let document = Document::new(text);
     let mut ground = document.root(&table).section("ground");
     let (file, options) = ground.get("record").map(|item| source(&item)).unwrap_or_default();
     let problems = document.into_problems();

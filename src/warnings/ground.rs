@@ -15,12 +15,12 @@ const MEASURED: usize = 50;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     if let Some(record) = facts.record {
-        look_at_times(facts, record, found);
+        look_at_times(name(facts), record, facts.scene.stop_time, found);
         if found.has("ground.record") {
             return;
         }
-        look_at_component(facts, record, found);
-        look_at_level(facts, record, found);
+        look_at_component(name(facts), record, found);
+        look_at_level(name(facts), record, found);
         look_at_peak(facts, record, found);
     }
     match (facts.scene.stop_time, facts.record) {
@@ -30,16 +30,23 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
+/// What is odd about a record by itself, as whoever scales it to a peak has to know.
+pub(super) fn look_at_record(name: &str, record: &Record, found: &mut Found) {
+    look_at_times(name, record, None, found);
+    look_at_component(name, record, found);
+    look_at_level(name, record, found);
+}
+
 /// s between samples, in the middle.
 fn spacing(record: &Record) -> f64 {
     super::facts::median(record.times.windows(2).map(|pair| pair[1] - pair[0])).unwrap_or(0.0)
 }
 
-fn look_at_times(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+fn look_at_times(name: &str, record: &Record, stop: Option<f64>, found: &mut Found) {
     let (Some(&first), Some(&last)) = (record.times.first(), record.times.last()) else { return };
     let (count, duration, spacing) = (record.times.len(), last - first, spacing(record));
     let is_measured = count >= MEASURED;
-    let stop = facts.scene.stop_time.unwrap_or(last);
+    let stop = stop.unwrap_or(last);
     let text = if is_measured && (spacing > 0.25 || duration > 2000.0) {
         format!(
             "{count} samples over {} s, one every {} s, where records have one every 0.005 to 0.02 s; times are in s, \
@@ -64,7 +71,7 @@ fn look_at_times(facts: &Facts<'_>, record: &Record, found: &mut Found) {
     } else {
         return;
     };
-    found.add("ground.record", quoted(name(facts)), text);
+    found.add("ground.record", quoted(name), text);
 }
 
 fn name<'a>(facts: &Facts<'a>) -> &'a str {
@@ -72,21 +79,22 @@ fn name<'a>(facts: &Facts<'a>) -> &'a str {
 }
 
 /// Buildings here sway; what lifts them is another motion.
-fn look_at_component(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+fn look_at_component(name: &str, record: &Record, found: &mut Found) {
     if record.is_vertical() {
         let text =
             format!("its component {} is vertical; the ground moves horizontally here", quoted(&record.component));
-        found.add("ground.record", quoted(name(facts)), text);
+        found.add("ground.record", quoted(name), text);
     }
 }
 
 /// A mean of the instrument, or numbers of one sign, which are no motion.
-fn look_at_level(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+fn look_at_level(name: &str, record: &Record, found: &mut Found) {
     let Some(mean) = record.offset() else { return };
     let is_one_sided = record.accelerations.iter().all(|a| *a >= 0.0) || record.accelerations.iter().all(|a| *a <= 0.0);
     let share = short(100.0 * mean.abs() / record.peak());
     let text = if is_one_sided && record.times.len() >= MEASURED {
-        "all its numbers are of one sign, which no ground motion is: is it a spectrum, or does it have an offset?"
+        "all its numbers are of one sign, which no ground motion is: is it a spectrum? An offset is taken away by \
+         remove_mean = true"
             .to_owned()
     } else {
         format!(
@@ -94,7 +102,7 @@ fn look_at_level(facts: &Facts<'_>, record: &Record, found: &mut Found) {
             short(mean)
         )
     };
-    found.add("ground.record", quoted(name(facts)), text);
+    found.add("ground.record", quoted(name), text);
 }
 
 /// In any case.

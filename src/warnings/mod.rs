@@ -93,6 +93,13 @@ pub fn of_file(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     warnings
 }
 
+/// What is odd about a record by itself, at `ground.record`: its times, its component, its mean.
+pub fn of_record(name: &str, record: &Record) -> Vec<Warning> {
+    let mut found = Found::default();
+    ground::look_at_record(name, record, &mut found);
+    found.warnings
+}
+
 /// A value of the input `ground.acceleration`, m/s2, that no earthquake has had.
 pub fn of_ground_input(value: f64) -> Option<Warning> {
     let mut found = Found::default();

@@ -5,6 +5,8 @@ mod files;
 mod forms;
 mod record;
 mod record_formats;
+mod record_offsets;
+mod record_tables;
 mod refusals;
 mod robustness;
 #[path = "../problems/two_and_three_storeys.rs"]

@@ -113,7 +113,8 @@ fn everything_that_is_wrong_is_said_at_once() {
 
     let text = at2("NPTS= 4, DT= .5 SEC", "1 two\n3 1e999 5").replace("UNITS OF G", "UNITS OF CM/S2");
     let expected = [
-        "line 3: ACCELERATION TIME SERIES IN UNITS OF CM/...: expected UNITS OF G",
+        "line 3: ACCELERATION TIME SERIES IN UNITS OF CM/...: expected UNITS OF G, or skip_lines, step and unit, which read the \
+         numbers below",
         "line 5: two: expected a number",
         "line 6: acceleration inf m/s2: expected a finite acceleration",
         "line 4: NPTS = 4: expected 5, the number of samples in the file",

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from statistics import fmean
 
-from .. import _native, _terminal
+from .. import _native, _record_options, _terminal
 from .._scenes import read_file, warn
 from .search import Cost, RequiredGap, Search
 
@@ -46,11 +46,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--force", type=float, metavar="F", help="N: also the gap from which on no peak force is larger")
     parser.add_argument("--workers", type=int, metavar="N", help="threads (default: all cores)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.csv", help="the table as a file, too")
+    _record_options.add(parser, "the files of --records do")
     options = parser.parse_args(argv)
     _native.spare([("-o", options.output)], [options.scene], options.records or [])
     read_file(options.scene)
     progress = _terminal.Progress("runs")
-    search = Search(options.scene, options.records, options.pga, options.force, options.workers, progress)
+    records = _record_options.with_options(options.records, options)
+    search = Search(options.scene, records, options.pga, options.force, options.workers, progress)
     warn(search.warnings)
     rows = search.run()
     widest = max(row.gap for row in rows)

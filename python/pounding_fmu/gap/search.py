@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from .. import _native
 from .._batch import simulate_batch
 from .._scenes import SceneWarning, path_of, read_scene, refuse, variables_of
-from ..study.records import label, named, read_records
+from ..study.records import label, named, offset_of, read_records
 
 if TYPE_CHECKING:
     import numpy as np
@@ -292,9 +292,10 @@ def _motions(read: _native.Scene, where: str, records: Any, pga: list[Any] | Non
     problems += ["pga: expected at least one"] * (pga == [])
     own = read.record()
     if records is not None:
-        found = read_records(named(records), problems)
+        found = read_records(named(records), problems, pga is not None)
     else:
         problems += [f"{where}the scene has no record: expected records"] * (own is None)
         found = {own.name: own} if own else {}
+        problems += [offset_of(key, record) for key, record in found.items() if pga and record.offset() is not None]
     refuse(problems)
     return [Motion(label(key), record, read, peak) for key, record in found.items() for peak in pga or [None]]

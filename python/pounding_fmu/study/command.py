@@ -9,7 +9,7 @@ import signal
 from collections.abc import Sequence
 from pathlib import Path
 
-from .. import _native, _terminal
+from .. import _native, _record_options, _terminal
 from .._data import DATA
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
 from .cases import Row, collapsed, varied_values
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> Study:
     progress = Progress("cases")
     study = run_study(
         options.scenes,
-        options.records,
+        _record_options.with_options(options.records, options),
         gaps=options.gaps,
         pga=options.pga,
         synthetic=options.synthetic,
@@ -161,6 +161,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     feup = DATA / "scenes" / "feup.toml"
     parser.add_argument("scenes", nargs="*", default=[feup], metavar="SCENE.toml", help="default: the laboratory frames")
     parser.add_argument("--records", nargs="+", metavar="FILE", help="ground motions, instead of the usual ones")
+    _record_options.add(parser, "the files of --records do")
     add_numbers(parser, "--gaps", "M", f"m (default: {' '.join(f'{gap:g}' for gap in GAPS)})", GAPS)
     add_numbers(parser, "--pga", "A", f"m/s2 (default: {' '.join(f'{peak:g}' for peak in PGA)})", PGA)
     about = "values of another parameter of the scene by its FMU name, * for any number; may be given several times"

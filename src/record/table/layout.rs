@@ -75,7 +75,7 @@ pub(super) struct Layout {
 impl Layout {
     /// That under which most rows hold as many numbers; `None` where no row is one of numbers.
     pub(super) fn find(text: &str, skipped: usize) -> Option<Layout> {
-        let mut best: Option<(usize, Layout)> = None;
+        let mut best: Option<((usize, usize), Layout)> = None;
         for separators in KNOWN {
             let Some((rows, layout)) = Layout::under(separators, text, skipped) else { continue };
             if best.is_none_or(|(most, _)| rows > most) {
@@ -92,15 +92,15 @@ impl Layout {
         Some(found)
     }
 
-    /// The layout under some separators, and how many rows have it.
-    fn under(separators: Separators, text: &str, skipped: usize) -> Option<(usize, Layout)> {
+    /// The layout under some separators, how many rows are of numbers only, and how many of them have it.
+    fn under(separators: Separators, text: &str, skipped: usize) -> Option<((usize, usize), Layout)> {
         let rows = rows(text, skipped).filter_map(|(line, row)| Some((line, separators.numbers(row)?.len())));
         let rows: Vec<(usize, usize)> = rows.take(LOOKED_AT).collect();
         let with = |count: usize| rows.iter().filter(|(_, found)| *found == count).count();
         // Of as many rows of each the wider ones: the others are the ends of theirs.
         let columns = rows.iter().map(|(_, count)| *count).max_by_key(|count| (with(*count), *count))?;
         let first = rows.iter().find(|(_, count)| *count == columns)?.0;
-        Some((with(columns), Layout { separators, first, columns }))
+        Some(((rows.len(), with(columns)), Layout { separators, first, columns }))
     }
 
     /// The rows from the first one on, each with its line.

@@ -73,15 +73,15 @@ pub(super) enum Kind {
 pub(super) fn kind(name: &str) -> Kind {
     let lower = name.to_lowercase();
     let words: Vec<&str> =
-        lower.split(|c: char| !c.is_alphanumeric() && !"/%#".contains(c)).filter(|word| !word.is_empty()).collect();
+        lower.split(|c: char| !c.is_alphanumeric() && !"/%#-".contains(c)).filter(|word| !word.is_empty()).collect();
     let Some(first) = words.first().copied() else { return Kind::Unknown };
     let begins = |names: &[&str]| names.iter().any(|name| words.iter().any(|word| word.starts_with(name)));
     let is = |names: &[&str]| names.contains(&first);
     let has = |names: &[&str]| words.iter().any(|word| names.contains(word));
-    if is(&[
-        "no", "nr", "n", "point", "points", "pt", "sample", "samples", "index", "idx", "i", "#", "count", "number",
-        "row",
-    ]) {
+    let counts = ["no", "nr", "n", "i", "idx", "#", "pt", "row", "count"];
+    if words.len() == 1 && is(&counts)
+        || ["point", "sample", "index", "number"].iter().any(|name| first.starts_with(name))
+    {
         Kind::Counter
     } else if begins(&["period", "freq"]) || is(&["hz"]) || has(&["hz"]) {
         Kind::Period

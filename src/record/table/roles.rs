@@ -117,7 +117,7 @@ fn is_time(first: &[f64], step: Option<f64>, columns: usize) -> bool {
         None => columns == 2 || grows && first.len() >= ROWS_OF_TIMES,
         Some(step) => {
             let fits = first.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() <= ROUNDED * step);
-            grows && (first.len() >= ROWS_OF_TIMES || fits)
+            grows && (first.len() >= ROWS_OF_TIMES || first.len() > 1 && fits)
         }
     }
 }
@@ -192,10 +192,16 @@ fn only(
         return Some(column.number - 1);
     }
     let (count, listed) = (table.layout.columns, components::listed(columns));
+    let or_sequence = match kind(&Component::new(1, "")) {
+        Kind::Time => String::new(),
+        _ => format!(", or skip_lines = {} where they are one sequence", table.layout.first - 1),
+    };
     refuse(
         table,
         reading,
-        format!("{count} columns of numbers: expected column = ..., or a name that ends with it, one of {listed}"),
+        format!(
+            "{count} columns of numbers: expected column = ..., or a name that ends with it, one of {listed}{or_sequence}"
+        ),
     );
     None
 }
