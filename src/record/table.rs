@@ -41,16 +41,22 @@ struct Announced {
     step: Option<f64>,
 }
 
-/// The names of the columns, with their line: the last line that gives so many and is no comment, else a comment that speaks of
-/// times.
+/// The names of the columns, with their line: the line above the numbers, of which units and the number of samples may stand below,
+/// else a comment that speaks of times.
 fn names_above(lines: &[(usize, &str)], layout: &Layout) -> Option<(usize, Vec<String>)> {
-    const LOOKED_AT: usize = 3;
+    const COMMENTS: usize = 3;
     let names = |(line, text): &(usize, &str)| Some((*line, names::split(text, layout.separators, layout.columns)?));
-    let speaks =
-        |(_, names): &(usize, Vec<String>)| names.first().is_some_and(|name| names::kind(name) != names::Kind::Unknown);
+    let speaks = |(_, names): &(usize, Vec<String>)| names.first().is_some_and(|name| names::kind(name).is_along());
     let (comments, others): (Vec<_>, Vec<_>) = lines.iter().rev().partition(|(_, line)| is_comment(line));
-    let of_comments = || comments.into_iter().take(LOOKED_AT).filter_map(names).find(speaks);
-    others.into_iter().take(LOOKED_AT).find_map(names).or_else(of_comments)
+    let below = |(_, line): &&&(usize, &str)| names::are_units(line) || said::count_and_step(line).is_some();
+    let above = others.iter().find(|line| !below(line)).and_then(|line| names(line));
+    if layout.columns == 1 {
+        // A title is no name; that of a velocity is worth knowing.
+        return above.filter(|(_, names)| {
+            names::kind(&names[0]).is_of_other() && names[0].split_whitespace().count() <= COMMENTS
+        });
+    }
+    above.or_else(|| comments.into_iter().take(COMMENTS).filter_map(names).find(speaks))
 }
 
 /// `None` where the text holds no row of numbers.

@@ -261,6 +261,18 @@ fn numbers_alone() {
         against(&known, "0 0.5\n0.01 1\n0.02 2\n0.03 1\n0.04 1\n"),
         "line 1: times 0.01 s apart: expected step = 0.02 s, or none"
     );
+    for (header, expected) in [
+        ("Velocity [cm/s]", "an acceleration"),
+        ("displacement (m)", "an acceleration"),
+        ("PSA (g)", "this is a spectrum"),
+    ] {
+        let found = against(&of(0.02, Unit::Metres), &format!("{header}\n1\n2\n"));
+        assert!(
+            found.starts_with(&format!("line 1: {header}: expected"))
+                && found.lines().next().unwrap().ends_with(expected),
+            "{found}"
+        );
+    }
     // What is missing is said at once.
     let missing = refused("0.5\n1.5\n");
     assert!(

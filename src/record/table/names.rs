@@ -2,6 +2,7 @@
 
 use super::layout::Separators;
 use crate::record::numbers::fortran_number;
+use crate::record::unit::Unit;
 
 /// The names that a line gives to so many columns; `None` where it cannot be told which is whose.
 pub(super) fn split(line: &str, separators: Separators, columns: usize) -> Option<Vec<String>> {
@@ -67,6 +68,28 @@ pub(super) enum Kind {
     /// An ordinate of a response or Fourier spectrum.
     Spectral,
     Unknown,
+}
+
+impl Kind {
+    /// Whether it is what samples are over.
+    pub(super) fn is_along(self) -> bool {
+        matches!(self, Kind::Time | Kind::OtherTime | Kind::Counter | Kind::Period)
+    }
+
+    /// Whether it is something of a motion other than its acceleration.
+    pub(super) fn is_of_other(self) -> bool {
+        matches!(self, Kind::OtherMotion | Kind::Spectral)
+    }
+}
+
+/// Whether a line holds units only, as one below names may: `(s) (gal)`, `[s];[m/s2]`.
+pub(super) fn are_units(line: &str) -> bool {
+    let words = line.split([' ', '\t', ';', ',']).map(str::trim).filter(|word| !word.is_empty());
+    let is_unit = |word: &str| {
+        word.starts_with(['(', '[']) && word.ends_with([')', ']']) || Unit::read(word).is_some() || word == "s"
+    };
+    let mut words = words.peekable();
+    words.peek().is_some() && words.all(is_unit)
 }
 
 /// What the name of a column says.

@@ -71,6 +71,7 @@ fn refuses_names(table: &Table<'_>, kinds: &[Kind], options: &RecordOptions, rea
     let expected = match first {
         _ if *first == Kind::Period || is_spectral => "times and accelerations: this is a spectrum",
         Kind::OtherTime => "times in s",
+        Kind::OtherMotion if kinds.len() == 1 => "an acceleration",
         _ if later_time => "the time first",
         Kind::Counter
             if options.step.or(table.announced.and_then(|said| said.step)).is_none()
