@@ -157,7 +157,9 @@ impl Reading {
         let Said { format, unit, about, components, chosen } = said;
         let mut record = self.complete()?;
         record.component = components.get(chosen).map(|one| one.name.clone()).unwrap_or_default();
-        let channels = if components.len() < 2 { Vec::new() } else { components.into_iter().map(|c| c.name).collect() };
+        let has_channels = components.len() > 1 || matches!(format, Format::Csmip | Format::Cosmos);
+        let names = components.into_iter().map(|component| component.name);
+        let channels = if has_channels { names.collect() } else { Vec::new() };
         Ok(Accelerogram { format, unit, about, channels, record })
     }
 

@@ -6,8 +6,6 @@
 use super::numbers::fortran_number;
 use super::unit::Unit;
 
-/// Words and lines beyond these are not looked at.
-const LONGEST_LINE: usize = 2000;
 /// Words of a unit: `cm / s 2`.
 const MOST_WORDS: usize = 4;
 
@@ -22,9 +20,6 @@ pub(super) enum SaidUnit {
 
 /// Every unit that a line names, in its order.
 pub(super) fn units(line: &str) -> Vec<SaidUnit> {
-    if line.len() > LONGEST_LINE {
-        return Vec::new();
-    }
     let line = &line.to_lowercase();
     let mut found = Vec::new();
     for unit in phrases(line).into_iter().filter_map(of_phrase).chain(of_names(line).map(SaidUnit::Known)) {
@@ -158,9 +153,6 @@ fn of_word(word: &str) -> Option<Unit> {
 
 /// s, where a line says it: `dt = 0.005`, `DT: 0.01 SEC`, `time step 0.02`, `sampling interval = 10 ms`, `200 Hz`.
 pub(super) fn step(line: &str) -> Option<f64> {
-    if line.len() > LONGEST_LINE {
-        return None;
-    }
     let line = line.to_lowercase();
     for key in ["dt", "delta t", "time step", "timestep", "step", "sampling interval", "time interval", "interval"] {
         let places = line.match_indices(key).map(|(place, _)| (&line[..place], &line[place + key.len()..]));

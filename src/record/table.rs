@@ -18,6 +18,8 @@ use roles::Roles;
 
 /// Lines of a header that are looked at for unit, step and names: the last ones.
 const MOST_HEADER_LINES: usize = 200;
+/// Bytes of one of them.
+const LONGEST_LINE: usize = 2000;
 
 /// The lines before the numbers, and how the numbers stand.
 struct Table<'t> {
@@ -61,21 +63,23 @@ fn names_above(lines: &[(usize, &str)], layout: &Layout) -> Option<(usize, Vec<S
 
 /// `None` where the text holds no row of numbers.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Option<Result<Accelerogram, RecordError>> {
-    let table = Table::read(text, options.skip_lines)?;
+    let table = Table::read(text, options)?;
     Some(table.accelerogram(options))
 }
 
 impl<'t> Table<'t> {
-    fn read(text: &'t str, skipped: Option<usize>) -> Option<Table<'t>> {
+    fn read(text: &'t str, options: &RecordOptions) -> Option<Table<'t>> {
+        let skipped = options.skip_lines;
         let mut layout = Layout::find(text, skipped.unwrap_or(0))?;
         let mut announced = None;
         if skipped.is_none()
-            && let Some(found) = roles::announced_in_rows(text, &layout)
+            && let Some(found) = roles::announced_in_rows(text, &layout, options.step)
         {
             announced = Some(found);
             layout.first = layout.rows(text).nth(1)?.0;
         }
-        let above = numbered(text).take(layout.first - 1).filter(|(_, line)| !line.trim().is_empty());
+        let above = numbered(text).take(layout.first - 1);
+        let above = above.filter(|(_, line)| !line.trim().is_empty() && line.len() <= LONGEST_LINE);
         let lines: Vec<(usize, &str)> = if skipped.is_some() { Vec::new() } else { above.collect() };
         let last: Vec<(usize, &str)> = lines.iter().rev().take(MOST_HEADER_LINES).rev().copied().collect();
         let said = last.iter().rev().find_map(|(line, text)| {

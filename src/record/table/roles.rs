@@ -221,15 +221,19 @@ pub(super) fn check_step(step: f64, line: usize, reading: &mut Reading) {
     }
 }
 
-/// Number of samples and step in the first of rows of two numbers, and its line: `400 0.01` above times that begin before 400.
-/// where there is one column the number alone.
-pub(super) fn announced_in_rows(text: &str, layout: &Layout) -> Option<Announced> {
+/// What a first row says that is none of the samples: `400 0.01` above times that begin before 400, above a sequence of 400, or
+/// with the step that the user says; where there is one column the number of the rows below.
+pub(super) fn announced_in_rows(text: &str, layout: &Layout, step_of_user: Option<f64>) -> Option<Announced> {
     let mut rows = layout.rows(text);
     let (line, first) = rows.next()?;
-    let (count, step) = match layout.columns {
-        1 => (first.trim().parse().ok()?, None),
-        2 => said::count_and_step(first).map(|(count, step)| (count, Some(step)))?,
-        _ => return None,
-    };
-    (count > 1 && rows.count() == count).then_some(Announced { line, count, step })
+    if layout.columns == 1 {
+        let count = first.trim().parse().ok()?;
+        return (count > 1 && rows.count() == count).then_some(Announced { line, count, step: None });
+    }
+    let (count, step) = said::count_and_step(first).filter(|_| layout.columns == 2)?;
+    let values = || layout.rows(text).skip(1).filter_map(|(_, row)| layout.separators.numbers(row));
+    let begins_before = *values().next()?.first()? < count as f64;
+    let (rows, numbers) = values().fold((0, 0), |(rows, numbers), row| (rows + 1, numbers + row.len()));
+    let fits = rows == count || numbers == count || step_of_user == Some(step);
+    (begins_before && fits).then_some(Announced { line, count, step: Some(step) })
 }
