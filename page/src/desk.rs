@@ -2,6 +2,7 @@
 
 use crate::job::Job;
 use crate::message::{Answer, Refusal, parts};
+use crate::motion::Said;
 use crate::run::Wishes;
 use crate::scene::Given;
 use crate::{edit, files, laws, look, motion, run, scene, spectrum, study};
@@ -42,10 +43,19 @@ enum Call {
     Run(Wishes),
     /// Begins a study of gaps, m.
     Study { gaps: Vec<f64> },
-    /// What is in the record of this name.
-    Record { name: String },
-    /// Begins the spectrum of the record of this name at these periods, s.
-    Spectrum { name: String, periods: Vec<f64> },
+    /// What is in the record of this name, with what is said about it as a scene says it.
+    Record {
+        name: String,
+        #[serde(default)]
+        said: Said,
+    },
+    /// Begins the spectrum of such a record at these periods, s.
+    Spectrum {
+        name: String,
+        #[serde(default)]
+        said: Said,
+        periods: Vec<f64>,
+    },
     /// The FMU for a version of FMI; the libraries of these platforms are the parts behind the records.
     Fmu { fmi: serde_json::Value, libraries: Vec<String> },
     /// The table of the motion.
@@ -98,9 +108,10 @@ impl Desk {
             }
             Call::Run(wishes) => self.begin(run::begin(&given, wishes)?),
             Call::Study { gaps } => self.begin(study::begin(&given, gaps)?),
-            Call::Record { name } => motion::about(&name, parts.first().copied().unwrap_or_default()),
-            Call::Spectrum { name, periods } => {
-                self.begin(spectrum::begin(&name, parts.first().copied().unwrap_or_default(), periods)?)
+            Call::Record { name, said } => motion::about(&name, &said, parts.first().copied().unwrap_or_default()),
+            Call::Spectrum { name, said, periods } => {
+                let content = parts.first().copied().unwrap_or_default();
+                self.begin(spectrum::begin(motion::read(&name, &said, content)?.record, &name, periods)?)
             }
             Call::Fmu { fmi, libraries } => {
                 let contents = parts.iter().skip(1 + records.len()).copied();

@@ -2,7 +2,7 @@
 
 use crate::message::{Answer, Refusal};
 use crate::scene::{Given, findings};
-use pounding::record::STANDARD_GRAVITY;
+use pounding::record::{Column, RecordOptions, STANDARD_GRAVITY};
 use pounding::scene::{Building, Scaling, Scene, Stiffness};
 use pounding::structure::Modes;
 use pounding_simulate::STEP;
@@ -63,6 +63,21 @@ fn contacts(scenario: &Scenario) -> Vec<Value> {
     pairs.map(|pair| json!({ "brief": pair.brief(), "gap": pair.gap, "law": pair.law.kind.info().name })).collect()
 }
 
+/// What the scene says about the file of its record, by the keys of the scene.
+fn said(options: &RecordOptions) -> Value {
+    let column = options.column.as_ref().map(|column| match column {
+        Column::Number(number) => json!(number),
+        Column::Name(name) => json!(name),
+    });
+    json!({
+        "step": options.step,
+        "unit": options.unit.map(|unit| unit.to_string()),
+        "column": column,
+        "skip_lines": options.skip_lines,
+        "remove_mean": options.remove_mean.then_some(true),
+    })
+}
+
 /// The record, its samples, its own peak and that with its factor; nothing where the ground is an input.
 fn ground(scene: &Scene, scenario: &Scenario) -> Value {
     let Some(record) = scenario.settings.record() else { return Value::Null };
@@ -75,6 +90,7 @@ fn ground(scene: &Scene, scenario: &Scenario) -> Value {
     let (first, last) = (record.times.first(), record.times.last());
     json!({
         "record": scene.ground.record,
+        "said": said(&scene.ground.options),
         "samples": record.times.len(),
         "duration": first.zip(last).map(|(first, last)| last - first),
         "recordPeak": record.peak(),

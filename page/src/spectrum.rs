@@ -5,7 +5,6 @@
 
 use crate::job::Job;
 use crate::message::{Answer, Refusal};
-use crate::motion;
 use pounding::engine::{Model, Output, PeakOf, Point, Side};
 use pounding::record::Record;
 use pounding::scene::{Building, Damping, Scene, Stiffness};
@@ -24,12 +23,11 @@ struct Spectrum {
 }
 
 /// The spectrum of a record at periods, s.
-pub fn begin(name: &str, bytes: &[u8], periods: Vec<f64>) -> Result<(impl Job + use<>, Answer), Refusal> {
+pub fn begin(record: Record, name: &str, periods: Vec<f64>) -> Result<(impl Job + use<>, Answer), Refusal> {
     let wrong = periods.iter().find(|period| !(**period > 0.0 && period.is_finite()));
     if let Some(period) = wrong {
         return Err(Refusal::value(format!("period = {period}: expected a number of seconds > 0")));
     }
-    let record = motion::read(name, bytes)?.record;
     let mut scene = Scene::from_toml(MAST)?;
     scene.ground.record = Some(name.to_owned());
     let begun = json!({ "periods": periods.len(), "damping": DAMPING });

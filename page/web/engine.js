@@ -115,21 +115,21 @@ export class Engine {
     return made();
   }
 
-  // What is in a record of any format: samples, duration, peak, ..., and `times` (s) and `accelerations` (m/s2).
-  async record(content, name) {
-    const { json, numbers } = await this.#lane("records").ask(ofRecord(content, { call: "record", name }));
+  // What is in a record of any format, with what is `said` about it by the keys of a scene's ground.record: samples, duration, peak, ..., and `times` (s) and `accelerations` (m/s2).
+  async record(content, name, said = {}) {
+    const { json, numbers } = await this.#lane("records").ask(ofRecord(content, { call: "record", name, said }));
     const half = numbers.length / 2;
     return { ...json, times: numbers.subarray(0, half), accelerations: numbers.subarray(half) };
   }
 
   // Pseudo-spectral acceleration, m/s2, at periods, s, for 5 % damping.
-  async spectrum(content, name, periods, onProgress = () => {}) {
+  async spectrum(content, name, periods, onProgress = () => {}, said = {}) {
     const values = [];
     const take = ({ json, numbers }) => {
       values.push(...numbers);
       if ("left" in json) onProgress({ share: values.length / periods.length });
     };
-    const header = { call: "spectrum", name, periods: [...periods] };
+    const header = { call: "spectrum", name, said, periods: [...periods] };
     take(await this.#lane("spectra").ask({ ...ofRecord(content, header), isJob: true }, take));
     return Float64Array.from(values);
   }

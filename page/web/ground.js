@@ -7,6 +7,7 @@ import { colour, lineLook } from "./palette.js";
 import { MOST_KEPT } from "./keep.js";
 import { said } from "./notice.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
+import { Unsaid, isMissing } from "./unsaid.js";
 import { sentence } from "./words.js";
 
 const MOST_BYTES_READ = 6e7;
@@ -16,11 +17,12 @@ const RECORD_HEIGHT = 150;
 const NO_RECORD = "no record: the ground is at rest";
 
 export class Ground {
-  // `setRecord` writes the name of a record into the scene, and says whether it could.
+  // `setRecord` writes a record into the scene, and says whether it could: a name, or a table as the scene has it.
   constructor(state, engine, setRecord) {
-    Object.assign(this, { state, engine, setRecord, known: new Map(), plots: [] });
+    Object.assign(this, { state, engine, setRecord, known: new Map(), plots: [], latest: null, waiting: null });
+    this.unsaid = new Unsaid((said) => this.#sayMore(said));
     element("record").addEventListener("change", () => this.take([...element("record").files]));
-    element("ground-record").addEventListener("change", () => this.setRecord(element("ground-record").value));
+    element("ground-record").addEventListener("change", () => this.#set(element("ground-record").value));
     state.on("look", () => this.show());
     state.on("records", () => this.#list());
     state.on("colours", () => this.draw());
@@ -34,7 +36,23 @@ export class Ground {
     element("record").value = "";
     if (name === null) return;
     this.#list();
-    if (!this.setRecord(name)) this.#say(`${name} is kept; the scene has to be corrected before it can name it.`);
+    if (!this.#set(name)) this.#say(`${name} is kept; the scene has to be corrected before it can name it.`);
+  }
+
+  // The record of the scene from here on, with what is said about it.
+  #set(name, said = {}) {
+    this.latest = name;
+    this.waiting = null;
+    this.unsaid.show(said);
+    return this.setRecord(Object.keys(said).length === 0 ? name : { file: name, ...said });
+  }
+
+  // More about the file that waits for it, else about the record of the scene.
+  async #sayMore(said) {
+    const { waiting } = this;
+    if (!waiting) return void (this.latest && this.#set(this.latest, said));
+    const about = await this.engine.record(waiting.bytes, waiting.name, said).catch((error) => this.#say(sentence(error)));
+    if (about) this.#set(this.#keep(waiting, about), said);
   }
 
   async #read(file) {
@@ -43,22 +61,27 @@ export class Ground {
         `${file.name} has ${digits(file.size / 1e6, 3)} MB: expected a record of at most ${MOST_BYTES_READ / 1e6} MB.`,
       );
     this.#say(`${file.name} is being read.`);
+    // A name that a scene can write as it is.
+    const name = file.name.replace(/[\\\u0000-\u001f]/g, "_");
+    const found = { name, bytes: new Uint8Array(await file.arrayBuffer()) };
     try {
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      const about = await this.engine.record(bytes, file.name);
-      // A name that a scene can write as it is.
-      const name = file.name.replace(/[\\\u0000-\u001f]/g, "_");
-      this.state.records[name] = bytes;
-      this.known.set(name, about);
-      this.state.tell("records");
-      const isKept = bytes.length <= MOST_KEPT;
-      said(
-        `${name} is read.${isKept ? "" : " It is too large for the browser to keep: drop it again after a reload."}`,
-      );
-      return name;
+      return this.#keep(found, await this.engine.record(found.bytes, name));
     } catch (error) {
-      return void this.#say(sentence(error));
+      this.#say(sentence(error));
+      if (!isMissing(sentence(error))) return;
+      this.waiting = found;
+      this.unsaid.show();
+      this.unsaid.open();
     }
+  }
+
+  #keep({ name, bytes }, about) {
+    this.state.records[name] = bytes;
+    this.known.set(name, about);
+    this.state.tell("records");
+    const isKept = bytes.length <= MOST_KEPT;
+    said(`${name} is read.${isKept ? "" : " It is too large for the browser to keep: drop it again after a reload."}`);
+    return name;
   }
 
   #list() {
@@ -91,14 +114,21 @@ export class Ground {
       return this.#say(
         `${missing.text.split(": expected")[0]}: this file is not in the browser (any more). Drop it here.`,
       );
+    if (this.state.problems.some(({ text }) => /^ground\.(pga|record)\b/.test(text) && isMissing(text))) this.unsaid.open();
     const { ground } = this.state.look ?? {};
     if (!ground) {
       this.name = null;
       this.#say("The scene names no record. Drop one anywhere.");
       return this.draw();
     }
-    const isOther = ground.record !== this.name || this.content !== this.state.records[ground.record];
-    [this.name, this.content] = [ground.record, this.state.records[ground.record]];
+    const wanted = JSON.stringify(ground.said);
+    const isOther =
+      ground.record !== this.name || wanted !== this.wanted || this.content !== this.state.records[ground.record];
+    [this.name, this.content, this.wanted] = [ground.record, this.state.records[ground.record], wanted];
+    if (!this.waiting && this.state.problems.length === 0) {
+      this.latest = ground.record;
+      this.unsaid.show(ground.said);
+    }
     if (isOther) await this.#about();
     this.#facts(ground);
     if (isOther) this.draw();
@@ -107,7 +137,7 @@ export class Ground {
 
   async #about() {
     const content = this.#content();
-    this.about = content === undefined ? null : await this.engine.record(content, this.name).catch(() => null);
+    this.about = content === undefined ? null : await this.engine.record(content, this.name, this.#said()).catch(() => null);
     if (this.about) this.known.set(this.name.replace(/#[^#]*$/, ""), this.about);
     this.#list();
     if (this.spectrum?.isUnderWay) this.engine.stop("spectra");
@@ -118,9 +148,15 @@ export class Ground {
   async #findSpectrum() {
     const periods = Array.from({ length: POINTS }, (_, at) => SHORTEST * (LONGEST / SHORTEST) ** (at / (POINTS - 1)));
     const spectrum = (this.spectrum = { periods, isUnderWay: true });
-    const values = await this.engine.spectrum(this.#content(), this.name, periods).catch(() => null);
+    const values = await this.engine.spectrum(this.#content(), this.name, periods, undefined, this.#said()).catch(() => null);
     Object.assign(spectrum, { values, isUnderWay: false });
     if (this.spectrum === spectrum) this.draw();
+  }
+
+  // What the scene says about its record.
+  #said() {
+    const { said = {} } = this.state.look?.ground ?? {};
+    return Object.fromEntries(Object.entries(said).filter(([, value]) => value !== null));
   }
 
   // A name may have the channel behind it.
@@ -143,9 +179,9 @@ export class Ground {
     element("record-charts").replaceChildren();
     const facts = element("record-facts");
     if (!this.name || !this.about) return void (facts.textContent = "No record to look at: drop one anywhere.");
-    const { format, samples, duration, peakInG, peakTime, ariasIntensity, mean } = this.about;
+    const { format, unit, component, samples, duration, peakInG, peakTime, ariasIntensity, mean } = this.about;
     facts.textContent = [
-      `${this.name.split("/").at(-1)}: ${format}.`,
+      `${this.name.split("/").at(-1)}: ${format}, in ${unit}${component && `, ${component}`}.`,
       `${plural(samples, "sample")} in ${digits(duration)} s;`,
       `as recorded peak ${digits(peakInG, 3)} g at ${seconds(peakTime, 2)} s,`,
       `mean ${digits(mean / GRAVITY, 2)} g, Arias intensity ${digits(ariasIntensity, 3)} m/s.`,

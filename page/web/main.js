@@ -7,6 +7,7 @@
 // editor.js      the scene as text (history.js, highlight.js); handles.js: what a hand is quicker at; files.js,
 //                link.js, keep.js and packed.js: where a scene comes from and stays
 // ground.js      records
+// unsaid.js      what their files do not say
 // stage.js       the buildings in motion (geometry.js, motion.js, drawing.js); player.js: the clock
 // charts.js      charts over time (series.js: of what); plots.js and xy.js: how any chart looks
 // impacts.js, peaks.js, loops.js, study.js: the other results; tabs.js

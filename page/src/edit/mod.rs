@@ -10,6 +10,8 @@ mod storeys;
 
 use crate::message::Refusal;
 use path::{Step, in_table, steps};
+
+pub use path::table_of;
 use pounding::scene::Scene;
 use serde_json::Value as Json;
 use toml_edit::DocumentMut;

@@ -1,7 +1,7 @@
 //! Paths such as `contact[1].gap`, and values set there.
 
 use serde_json::Value as Json;
-use toml_edit::{Array, Item, Table, TableLike, Value};
+use toml_edit::{Array, InlineTable, Item, Table, TableLike, Value};
 
 /// A step of a path.
 pub enum Step<'p> {
@@ -119,8 +119,22 @@ fn written(value: &Json, old: Option<&Value>) -> Result<Value, String> {
             let entry = |entry| written(entry, old.and_then(Value::as_array).and_then(|array| array.get(0)));
             Ok(Value::Array(entries.iter().map(entry).collect::<Result<Array, _>>()?))
         }
-        Json::Null | Json::Object(_) => Err("expected a number, a text, true, false or a list".to_owned()),
+        Json::Object(entries) => Ok(Value::InlineTable(table_of(entries)?)),
+        Json::Null => Err("expected a number, a text, true, false or a list".to_owned()),
     }
+}
+
+/// A table in braces, in whose entries whole numbers stay such.
+pub fn table_of(entries: &serde_json::Map<String, Json>) -> Result<InlineTable, String> {
+    let mut table = InlineTable::new();
+    for (key, value) in entries {
+        let value = match value.as_i64() {
+            Some(whole) => whole.into(),
+            None => written(value, None)?,
+        };
+        table.insert(key, value);
+    }
+    Ok(table)
 }
 
 /// The shortest text that reads back as the same number: 1e6 or 0.005.
