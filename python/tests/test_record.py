@@ -1,5 +1,6 @@
 """Ground motions: `read_record`, and the command that shows and converts them."""
 
+import tomllib
 from fractions import Fraction
 
 import fmus
@@ -79,6 +80,85 @@ def test_a_mean_that_is_not_0_is_told_and_taken_away_on_demand(tmp_path):
     less = pounding_fmu.read_record(tmp_path / "less.csv")[1]
     assert fmus.same_bits(less, acceleration - np.float64(sum(map(Fraction, acceleration.tolist())) / 200))
     assert "without its mean of" in (tmp_path / "less.csv").read_text().splitlines()[0]
+
+
+WITHOUT = tomllib.loads(fmus.without_record())
+# Numbers alone, two in a line; and three components about a level of 0.5 m/s2.
+BARE = "by hand\n1 -2\n3 -0.5\n"
+THREE = "t [s],N-S [m/s2],E-W [m/s2],U-D [m/s2]\n" + "".join(f"{k / 100},{k % 7 - 3},{k % 5 - 1.5},1\n" for k in range(35))
+SAID = {"step": 0.02, "unit": "g", "skip_lines": 1}
+OPTIONS = ["--step", "0.02", "--unit", "g", "--skip-lines", "1"]
+
+
+def test_what_a_file_does_not_say_is_said(tmp_path):
+    (tmp_path / "bare.txt").write_text(BARE)
+    (tmp_path / "three.csv").write_text(THREE)
+    expected = [0.0, 0.02, 0.04, 0.06], [9.80665, -19.6133, 3 * 9.80665, -0.5 * 9.80665]
+    for said in (SAID, SAID | {"column": None, "remove_mean": False}):
+        time, acceleration = pounding_fmu.read_record(tmp_path / "bare.txt", **said)
+        assert (time.tolist(), acceleration.tolist()) == expected
+    text = well("record", "bare.txt", *OPTIONS, "-o", "said.csv", cwd=tmp_path)
+    assert "columns of text, in g" in text and "every 0.02 s" in text
+    assert pounding_fmu.read_record(tmp_path / "said.csv")[1].tolist() == expected[1]
+    for column in (3, "E-W", "ew"):
+        components = pounding_fmu.read_record(tmp_path / "three.csv", column=column, remove_mean=True)
+        assert components[1].tolist() == pytest.approx([k % 5 - 2 for k in range(35)], abs=1e-15)
+        shown = well("record", "three.csv", "--column", str(column), cwd=tmp_path)
+        assert "component   E-W [m/s2]" in shown and "channel 3   U-D [m/s2]" in shown
+    assert fmus.same_bits(pounding_fmu.read_record(f"{tmp_path}/three.csv#N-S")[1], np.array([k % 7 - 3.0 for k in range(35)]))
+    with pytest.raises(ValueError, match="expected column = ...") as refused:
+        pounding_fmu.read_record(tmp_path / "three.csv")
+    assert "#2 N-S [m/s2], #3 E-W [m/s2], #4 U-D [m/s2]" in str(refused.value)
+    with pytest.raises(ValueError, match='record.unit = "kg"') as refused:
+        pounding_fmu.read_record(tmp_path / "bare.txt", step=-1, unit="kg", column=0)
+    assert len(str(refused.value).splitlines()) == 3
+    vertical = run("record", "three.csv", "--column", "U-D", cwd=tmp_path)
+    assert "vertical" in vertical.stderr and vertical.returncode == 0
+
+
+def test_scenes_and_records_say_the_same(tmp_path):
+    """A scene, a run, a batch, and the parameter of the FMU: one way, one motion."""
+    (tmp_path / "bare.txt").write_text(BARE)
+    source = {"file": str(tmp_path / "bare.txt"), **SAID}
+    other, outputs = WITHOUT, ["left.displacement[1]", "contact[1].impulse"]
+    scene = other | {"ground": {"record": source}}
+    own = pounding_fmu.simulate(scene, stop=0.5)
+    path = tmp_path / "plain.csv"
+    well("record", "bare.txt", *OPTIONS, "-o", "plain.csv", cwd=tmp_path)
+    runs = [
+        pounding_fmu.simulate(other, record=source, stop=0.5),
+        pounding_fmu.simulate(other, parameters={"ground.record": source}, stop=0.5),
+        pounding_fmu.simulate(other, record=path, stop=0.5),
+    ]
+    for name in outputs:
+        assert all(fmus.same_bits(found[name], own[name]) for found in runs)
+    batch = pounding_fmu.simulate_batch(other, {}, outputs, records=[source, path, source], stop=0.5)
+    assert all(fmus.same_bits(row, batch[0]) for row in batch)
+    assert fmus.same_bits(pounding_fmu.simulate_batch(other, {}, outputs, records=source, stop=0.5)[0], batch[0])
+    built = pounding_fmu.build_fmu(scene, tmp_path / "bare.fmu")
+    driven = fmus.Fmu(built, tmp_path / "bare").run(own["time"].tolist())
+    assert fmus.same_bits(driven[outputs[0]], own[outputs[0]])
+
+
+OFFSET = "time_s,accel_m_s2\n" + "".join(f"{k / 100!r},{0.4 + (k % 7 - 3.0)!r}\n" for k in range(350))
+
+
+def test_no_record_is_scaled_by_its_offset(tmp_path):
+    (tmp_path / "offset.csv").write_text(OFFSET)
+    (tmp_path / "scene.toml").write_text(fmus.without_record())
+    for command in (["study", "scene.toml", "--gaps", "0.01", "-o", "s"], ["gap", "scene.toml"]):
+        told = [*command, "--records", "offset.csv", "--pga", "2"]
+        done = run(*told, cwd=tmp_path)
+        assert done.returncode == 1 and "its mean is 0.4 m/s2" in done.stderr and "--remove-mean" in done.stderr, done.stderr
+        well(*told, "--remove-mean", cwd=tmp_path)
+    source = {"file": str(tmp_path / "offset.csv")}
+    scene = WITHOUT | {"ground": {"record": source, "pga": 2.0}}
+    assert "remove_mean" in "".join(pounding_fmu.problems(scene))
+    with pytest.warns(pounding_fmu.SceneWarning, match="its mean is 0.4 m/s2"):
+        assert pounding_fmu.problems(scene | {"ground": {"record": source}}) == []
+    with pytest.warns(pounding_fmu.SceneWarning, match="its mean is 0.4 m/s2"):
+        pounding_fmu.simulate_batch(WITHOUT, {}, ["impacts"], records=[source], stop=0.1)
+    assert pounding_fmu.problems(scene | {"ground": {"record": source | {"remove_mean": True}, "pga": 2.0}}) == []
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])

@@ -214,6 +214,40 @@ def takes_records(browser):
         assert line_at(page, "record") == ['record = "SINE.AT2"']
 
 
+def reads_what_a_file_does_not_say(browser):
+    sine = [0.3 * math.sin(2 * math.pi * 2.0 * 0.01 * k) for k in range(2000)]
+    with visit(browser) as page:
+        drop(page, "one.txt", "\n".join(f"{a:.6f}" for a in sine))
+        says(page, "one.txt.*1 column of numbers.*step", at="#record-says")
+        assert page.locator("#record-unsaid").get_attribute("open") is not None
+        before = page.locator("#scene").input_value()
+        page.locator("#record-step").fill("0.01")
+        page.locator("#record-step").blur()
+        says(page, "nothing says the unit", at="#record-says")
+        assert page.locator("#scene").input_value() == before, "a record that cannot be read yet changes nothing"
+        page.locator("#record-unit").select_option("g")
+        says(page, r"2000 samples, 19\.99 s, peak 0\.299 g", at="#record-says")
+        assert line_at(page, "record") == ['record = { file = "one.txt", step = 0.01, unit = "g" }']
+        page.screenshot(path=FOLDER / "page_unsaid.png")
+        # Two components about another level, of which the second is wanted.
+        rows = "".join(f"{0.01 * k:.2f},{a:.6f},{2 * a + 0.5:.6f}\n" for k, a in enumerate(sine))
+        drop(page, "two.csv", f"time [s],N-S [m/s2],E-W [m/s2]\n{rows}")
+        says(page, "two.csv.*3 columns of numbers.*#3 E-W", at="#record-says")
+        page.locator("#record-column").fill("E-W")
+        page.locator("#record-column").blur()
+        says(page, r"2000 samples, 19\.99 s, peak 0\.112 g", at="#record-says")
+        assert line_at(page, "record") == ['record = { file = "two.csv", column = "E-W" }']
+        says(page, "its mean is 0.5 m/s2", at="#problems")
+        page.locator("#record-remove-mean").check()
+        says(page, r"2000 samples, 19\.99 s, peak 0\.0610 g", at="#record-says")
+        assert line_at(page, "record") == ['record = { file = "two.csv", column = "E-W", remove_mean = true }']
+        # What says everything itself leaves nothing of that.
+        drop(page, "plain.csv", "time_s,accel_m_s2\n0,0\n1,3\n2,-4\n3,0\n")
+        says(page, r"4 samples, 3 s, peak 0\.408 g", at="#record-says")
+        assert line_at(page, "record") == ['record = "plain.csv"']
+        assert not page.locator("#record-remove-mean").is_checked() and page.locator("#record-unit").input_value() == ""
+
+
 def says_when_a_record_is_not_there_any_more(browser):
     rows = "".join(f"{0.01 * k:.2f},{(k * 7919) % 1000 / 500 - 1:.9f}\n" for k in range(130_000))
     with visit(browser) as page:
@@ -329,7 +363,7 @@ LOOKS = [
     shows_a_collision_before_anything_is_done, says_what_is_wrong_at_its_line, warns_of_slips, has_handles_that_write_the_text,
     follows_a_handle_while_it_is_dragged,
     changes_strength_law_and_storeys, opens_every_example, takes_records, survives_a_reload_and_travels_in_a_link,
-    says_when_a_record_is_too_large_for_a_link, takes_one_channel_of_several,
+    says_when_a_record_is_too_large_for_a_link, takes_one_channel_of_several, reads_what_a_file_does_not_say,
     says_when_a_record_is_not_there_any_more, opens_the_scene_that_it_was_made_for,
     answers_scripts,
 ]  # fmt: skip
