@@ -134,8 +134,9 @@ def simulate(
         stop: s, time of the last row; without it the scene's ``stop_time``, else the end of the record, else 10.
         outputs: names of the columns beside ``time``: outputs of the FMU, also its frequencies and parameters. All
             outputs where nothing is said.
-        parameters: values of parameters of the FMU by name. ``ground.record`` is a path.
-        record: another ground motion: a path (any format), or a pair of arrays of the same length, times (s, strictly
+        parameters: values of parameters of the FMU by name. ``ground.record`` is a path, or a dict with a file.
+        record: another ground motion: a path (any format), a dict with a ``file`` and what it does not say (the keys
+            of a scene's ``ground.record``), or a pair of arrays of the same length, times (s, strictly
             increasing) and accelerations (m/s2, linear in between). A scene without a record gets it as its own; it is
             scaled as the scene says.
         rows_per_impact: as many further rows within each contact, beside those at its beginning, its largest force and
@@ -217,14 +218,14 @@ def _with_parameters(
                 numbers.append((names.references[name], number(value)))
             elif has_record:
                 found.append(f"{name} = {value!r}: expected either this or record")
-            elif os.fspath(value):
+            elif isinstance(value, Mapping) or os.fspath(value):
                 read = read.with_record(read_record(value, name))
         except OSError as error:
             found.append(f"{name} = {value!r}: expected a record file, but {error.strerror}")
         except ValueError as error:
             found.append(str(error))
         except TypeError:
-            found.append(f"{name} = {value!r}: expected a {'path' if name == 'ground.record' else 'number'}")
+            found.append(f"{name} = {value!r}: expected a {'path or a dict with a file' if name == 'ground.record' else 'number'}")
     refuse(found)
     return (read.with_parameters(numbers) if numbers else read), names
 

@@ -3,7 +3,7 @@
 use crate::document;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pounding::record::{self, KnownRecords, RecordError, RecordFile, RecordOptions};
-use pounding::scene::record_table;
+use pounding::scene::{SceneError, record_source, record_table};
 use pounding::warnings;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -28,7 +28,13 @@ impl Record {
     /// That of a file; `key` is what a message calls it.
     #[staticmethod]
     fn read(file: PathBuf, key: &str) -> PyResult<Record> {
-        Record::of_file(&file, &RecordOptions::default(), key)
+        match file.to_str() {
+            Some(text) => {
+                let (name, options) = record_source(text).map_err(|error| refused(&error, key))?;
+                Record::of_file(Path::new(&name), &options, key)
+            }
+            None => Record::of_file(&file, &RecordOptions::default(), key),
+        }
     }
 
     /// That of a dict with the keys of a scene's `ground.record`, its file as a path.
@@ -98,11 +104,14 @@ impl Record {
 
 /// File and options of a dict as a scene has it.
 fn options_of(source: &Bound<'_, PyDict>, key: &str) -> PyResult<(PathBuf, RecordOptions)> {
-    let (name, options) = record_table(&document::to_toml(source)?).map_err(|error| {
-        let lines = error.problems.iter().map(|problem| problem.to_string().replacen("ground.record", key, 1));
-        PyValueError::new_err(lines.collect::<Vec<_>>().join("\n"))
-    })?;
+    let (name, options) = record_table(&document::to_toml(source)?).map_err(|error| refused(&error, key))?;
     Ok((name.into(), options))
+}
+
+/// What is wrong with such a table, which a message calls otherwise.
+fn refused(error: &SceneError, key: &str) -> PyErr {
+    let lines = error.problems.iter().map(|problem| problem.to_string().replacen("ground.record", key, 1));
+    PyValueError::new_err(lines.collect::<Vec<_>>().join("\n"))
 }
 
 /// Everything that is wrong with a record, a line each.

@@ -106,7 +106,6 @@ pub use place::Place;
 pub use places::Places;
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
-pub(crate) use read_record::record_source;
-pub use read_record::record_table;
+pub use read_record::{record_source, record_table};
 pub use side::Side;
 pub use units::Units;

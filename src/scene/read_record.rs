@@ -52,7 +52,7 @@ fn column(item: &Item<'_>) -> Option<Column> {
 ///
 /// # Errors
 /// All problems of such a table.
-pub(crate) fn record_source(text: &str) -> Result<(String, RecordOptions), SceneError> {
+pub fn record_source(text: &str) -> Result<(String, RecordOptions), SceneError> {
     let trimmed = text.trim();
     if !(trimmed.starts_with('{') && trimmed.ends_with('}')) || std::path::Path::new(text).exists() {
         return Ok((text.to_owned(), RecordOptions::default()));
