@@ -6,6 +6,8 @@
 use super::accelerogram::Record;
 use crate::numerics::sum::Sum;
 
+/// Samples from which on a record is a measured one and not a few corners drawn by hand.
+pub(crate) const MEASURED: usize = 50;
 /// Share of the peak about the mean from which on a mean is an offset.
 const OFFSET: f64 = 0.01;
 /// Share of the largest velocity from which on the velocity is one that a mean leaves at the end.
@@ -19,21 +21,25 @@ impl Record {
         sum.exact() / self.accelerations.len() as f64
     }
 
-    /// m/s2, the mean, where it is a level about which the record stands: more than a hundredth of the peak about it. A motion that
-    /// begins and ends at exactly 0 has its level there: a pulse has none.
+    /// m/s2, the mean, where it is a level about which a measured record stands: more than a hundredth of the peak about it. A motion
+    /// that begins or ends at exactly 0 has its level there, as a pulse has.
     ///
     /// ```
     /// use pounding::record::Record;
     ///
-    /// let about = |level: f64| Record::new(vec![0.0, 1.0, 2.0, 3.0], [0.1, -1.0, 1.0, -0.1].map(|a| level + a).to_vec());
+    /// let times: Vec<f64> = (0..100).map(f64::from).collect();
+    /// let about = |level: f64| Record::new(times.clone(), times.iter().map(|t| level + (t + 0.5).sin()).collect());
     /// assert_eq!(about(0.0).offset(), None);
-    /// assert_eq!(about(0.5).offset(), Some(0.5));
+    /// assert!((about(0.5).offset().unwrap() - 0.5).abs() < 0.01);
     /// ```
     pub fn offset(&self) -> Option<f64> {
-        let ends = [self.accelerations.first(), self.accelerations.last()];
-        let has_level = ends.iter().all(|end| end.is_none_or(|a| *a == 0.0));
+        let is_zero = |end: Option<&f64>| end.is_none_or(|a| *a == 0.0);
+        let has_level = is_zero(self.accelerations.first()) || is_zero(self.accelerations.last());
+        if has_level || self.accelerations.len() < MEASURED {
+            return None;
+        }
         let mean = self.mean();
-        (!has_level && mean.abs() > OFFSET * self.peak_about(mean)).then_some(mean)
+        (mean.abs() > OFFSET * self.peak_about(mean)).then_some(mean)
     }
 
     /// m/s, the velocity that the mean leaves the ground with, where that is a quarter of the largest that the rest has, and more.

@@ -55,6 +55,7 @@ pub use accelerogram::{Accelerogram, Record, RecordError, STANDARD_GRAVITY};
 pub use file::RecordFile;
 pub use format::Format;
 pub use known::KnownRecords;
+pub(crate) use mean::MEASURED;
 pub use options::{Column, RecordOptions};
 pub use reading::{MOST_PROBLEMS, MOST_TIME};
 pub use unit::Unit;

@@ -7,7 +7,7 @@ use crate::record::{Column, RecordOptions, Unit};
 /// Name of the file, where there is one, and what is said about it.
 pub(super) fn source(item: &Item<'_>) -> (Option<String>, RecordOptions) {
     if !item.is_table() {
-        let expected = "the name of a record file, or { file = \"...\", step = ..., unit = \"...\" }";
+        let expected = "text in quotation marks, the name of a record file, or a table { file = \"...\", step = ..., unit = \"...\" }";
         return (item.text_or(expected).map(str::to_owned), RecordOptions::default());
     }
     let mut section = item.section();

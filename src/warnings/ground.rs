@@ -3,15 +3,13 @@
 use super::facts::{Facts, Pace};
 use super::found::Found;
 use crate::figures::short;
-use crate::record::{Record, STANDARD_GRAVITY};
+use crate::record::{MEASURED, Record, STANDARD_GRAVITY};
 use crate::scene::{Scaling, quoted};
 use crate::structure::Side;
 
 /// In g: the smallest peak of a ground motion that harms buildings, and the largest that has been recorded.
 const LEAST_PEAK: f64 = 0.05;
 const MOST_PEAK: f64 = 3.0;
-/// Samples from which on a record is a measured one and not a few corners drawn by hand.
-const MEASURED: usize = 50;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     if let Some(record) = facts.record {
@@ -92,7 +90,7 @@ fn look_at_level(name: &str, record: &Record, found: &mut Found) {
     let Some(mean) = record.offset() else { return };
     let is_one_sided = record.accelerations.iter().all(|a| *a >= 0.0) || record.accelerations.iter().all(|a| *a <= 0.0);
     let share = short(100.0 * mean.abs() / record.peak());
-    let text = if is_one_sided && record.times.len() >= MEASURED {
+    let text = if is_one_sided {
         "all its numbers are of one sign, which no ground motion is: is it a spectrum? An offset is taken away by \
          remove_mean = true"
             .to_owned()

@@ -124,7 +124,13 @@ fn ground() {
     );
     assert_eq!(ground("record = \"a\"\npga = 0"), ["ground.pga = 0.0: expected a finite peak acceleration > 0 m/s2"]);
     assert_eq!(ground("record = \" \""), ["ground.record = \" \": expected the name of a record file"]);
-    assert_eq!(ground("record = 1\npga = 1"), ["ground.record = 1: expected text in quotation marks"]);
+    assert_eq!(
+        ground("record = 1\npga = 1"),
+        [
+            "ground.record = 1: expected text in quotation marks, the name of a record file, or a table { file = \"...\", step = ..., unit = \
+         \"...\" }"
+        ]
+    );
 }
 
 #[test]

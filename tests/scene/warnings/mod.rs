@@ -74,7 +74,7 @@ fn the_ground_and_the_end() {
         (OFFICES, &[(PGA, "pga = 0.35 ")], &["ground.pga"], "was 0.35 g meant (3.43 m/s2)?"),
         (OFFICES, &[(PGA, "pga = 343 ")], &["ground.pga"], "was 343 cm/s2 meant (3.43 m/s2)?"),
         (OFFICES, &[(PGA, "pga = 35 ")], &["ground.pga"], "3.57 g"),
-        (OFFICES, &[(PGA, "scale = 0.1 ")], &["ground.scale"], "hardly"),
+        (OFFICES, &[(PGA, "scale = 0.1 ")], &["ground.scale"], "weak, felt by people"),
         (OFFICES, &[(PGA, "scale = 9.81 ")], &["ground.scale"], "3.13 g"),
         (OFFICES, &[(PGA, "scale = 0 ")], &["ground.scale"], "stands still"),
         (FEUP, &[("stop_time = 20.0", "stop_time = 20e3")], &["stop_time"], "in ms?"),
