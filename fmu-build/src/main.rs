@@ -27,7 +27,10 @@ impl Face for CargoFmu {
     }
 
     fn again(&self) -> std::io::Result<std::process::Command> {
-        Ok(std::process::Command::new(std::env::current_exe()?))
+        // Where Linux says what runs, that is still there when another `cargo fmu` has compiled a new program in its place.
+        let running = std::path::Path::new("/proc/self/exe");
+        let program = if running.exists() { running.to_path_buf() } else { std::env::current_exe()? };
+        Ok(std::process::Command::new(program))
     }
 
     fn home(&self) -> anyhow::Result<Home> {

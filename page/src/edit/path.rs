@@ -124,10 +124,11 @@ fn written(value: &Json, old: Option<&Value>) -> Result<Value, String> {
     }
 }
 
-/// A table in braces, in whose entries whole numbers stay such.
+/// A table in braces, in whose entries whole numbers stay such; `file` comes first.
 pub fn table_of(entries: &serde_json::Map<String, Json>) -> Result<InlineTable, String> {
     let mut table = InlineTable::new();
-    for (key, value) in entries {
+    let (first, others): (Vec<_>, Vec<_>) = entries.iter().partition(|(key, _)| *key == "file");
+    for (key, value) in first.into_iter().chain(others) {
         let value = match value.as_i64() {
             Some(whole) => whole.into(),
             None => written(value, None)?,

@@ -239,7 +239,7 @@ def reads_what_a_file_does_not_say(browser):
         assert line_at(page, "record") == ['record = { file = "two.csv", column = "E-W" }']
         says(page, "its mean is 0.5 m/s2", at="#problems")
         page.locator("#record-remove-mean").check()
-        says(page, r"2000 samples, 19\.99 s, peak 0\.0610 g", at="#record-says")
+        says(page, r"2000 samples, 19\.99 s, peak 0\.0611 g", at="#record-says")
         assert line_at(page, "record") == ['record = { file = "two.csv", column = "E-W", remove_mean = true }']
         # What says everything itself leaves nothing of that.
         drop(page, "plain.csv", "time_s,accel_m_s2\n0,0\n1,3\n2,-4\n3,0\n")
