@@ -1,7 +1,7 @@
 //! Accelerograms: what a ground motion is, and how its files are read.
 //!
 //! The format is told from what is in a file, not from its name (`parse.rs`); `parse` of each format's file reads it. Nothing is
-//! corrected: baseline, mean and filters stay as in the file.
+//! corrected: baseline, mean and filters stay as in the file, unless the mean is to be taken away (`mean.rs`).
 //!
 //! | format | told by | accelerations | times | file |
 //! |---|---|---|---|---|
@@ -11,12 +11,13 @@
 //! | ESM, ITACA \[Luzi2016\] | lines `KEY: VALUE`, such as `EVENT_NAME:` | those of `UNITS` | from 0, every `SAMPLING_INTERVAL_S` | `esm.rs` |
 //! | CSMIP volume 2 \[ShakalHuang1985\] | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
 //! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 62 of the real header in ms, else number 34 in s | `volume2.rs` |
-//! | two columns | rows of two numbers | those that a header or a comment names | any that increase strictly | `columns.rs` |
+//! | columns of text | rows of numbers | those that a header or a comment names, or the user | any that increase strictly, or by a step | `table.rs` |
 //!
-//! Byte order mark, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end
+//! Byte order mark, UTF-16, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end
 //! are accepted in all. CSV and columns have comments, lines that start with `#`. Columns are set apart by semicolons, commas or
-//! blanks; beside semicolons and blanks decimals may have a comma. Of a file of the volume 2 the first channel is read, or the
-//! one that is named behind the file, `CHAN.v2#2` ([`RecordFile`]).
+//! blanks; beside semicolons and blanks decimals may have a comma. Of several components the one is read that is named behind the
+//! file, `CHAN.v2#2` or `motion.csv#EW` ([`RecordFile`]). What a file does not say the user may ([`RecordOptions`]). What it says of
+//! itself, count, step, unit and peak, is compared with what is read.
 //!
 //! ```
 //! use pounding::record::Record;
