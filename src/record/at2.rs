@@ -8,6 +8,8 @@ use super::said::{self, SaidUnit};
 use super::unit::Unit;
 
 const HEADER_LINES: usize = 4;
+/// Letters of the name of a direction.
+const LONGEST_COMPONENT: usize = 8;
 /// The way out where the accelerations are in another unit.
 const OTHERWISE: &str = ", or skip_lines, step and unit, which read the numbers below";
 /// A title that goes on makes more of them.
@@ -44,7 +46,10 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     }
     reading.check_count(line, "NPTS", samples);
     let about = header.get(1).map_or_else(String::new, |(_, line)| excerpt(line));
-    reading.accelerogram(Said::one(Format::PeerAt2, Unit::Gravity, about, ""))
+    // `Loma Prieta, 10/18/1989, Gilroy, 067`, or UP and the like.
+    let second = header.get(1).and_then(|(_, line)| line.rsplit_once(',')).map_or("", |(_, last)| last.trim());
+    let component = if second.len() <= LONGEST_COMPONENT { second } else { "" };
+    reading.accelerogram(Said::one(Format::PeerAt2, Unit::Gravity, about, component))
 }
 
 /// The line of the header that says it: the fourth, or a later one where a title goes on.

@@ -34,7 +34,7 @@ pub(super) fn is_vertical(name: &str) -> bool {
             word.len() == 3 && word.ends_with('z') && word.chars().nth(1).is_some_and(|c| "hngl".contains(c));
         is_channel
             || word.starts_with("vert")
-            || ["up", "u", "ud", "u-d", "z", "v", "down", "dwn", "updo"].contains(&word.as_str())
+            || ["up", "u", "ud", "u-d", "z", "v", "down", "dwn", "dn", "updo", "ver"].contains(&word.as_str())
     })
 }
 

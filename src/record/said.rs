@@ -21,8 +21,12 @@ pub(super) enum SaidUnit {
 /// Every unit that a line names, in its order.
 pub(super) fn units(line: &str) -> Vec<SaidUnit> {
     let line = &line.to_lowercase();
-    let mut found = Vec::new();
-    for unit in phrases(line).into_iter().filter_map(of_phrase).chain(of_names(line).map(SaidUnit::Known)) {
+    let mut found: Vec<SaidUnit> = factors_at_brackets(line).collect();
+    if !found.is_empty() {
+        return found;
+    }
+    let of_phrases = phrases(line).into_iter().filter_map(of_phrase);
+    for unit in of_phrases.chain(of_names(line).map(SaidUnit::Known)) {
         if !found.contains(&unit) {
             found.push(unit);
         }
@@ -64,6 +68,22 @@ fn phrases(line: &str) -> Vec<&str> {
         }
     }
     found
+}
+
+/// Units in brackets beside which a factor stands: `Acceleration (g) x 100`, `Acc * 1000 [g]`.
+fn factors_at_brackets(line: &str) -> impl Iterator<Item = SaidUnit> {
+    let places = line.match_indices(['(', '[']);
+    places.filter_map(|(place, _)| {
+        let (before, inside) = (&line[..place], &line[place + 1..]);
+        let (unit, after) = inside.split_once([')', ']'])?;
+        let before = before.split([',', ';', '\t', ')', ']']).next_back()?;
+        let after = after.split([',', ';', '\t', '(', '[']).next()?.split_whitespace().next();
+        // `x 1000 [g]` and `10^-3 (g)`, but not a name such as `090 (g)`.
+        let mut last = before.split_whitespace().rev().take(2);
+        let has_factor = after.is_some_and(is_factor) || last.any(is_factor);
+        let factor = format!("{} ({unit}) {}", before.trim(), after.unwrap_or_default());
+        (has_factor && of_phrase(unit).is_some()).then(|| SaidUnit::Scaled(factor.trim().to_owned()))
+    })
 }
 
 /// A piece without what sets it apart from others.
@@ -127,6 +147,7 @@ fn is_factor(word: &str) -> bool {
         || word.starts_with("10**")
         || word.starts_with(['*', '×', '/'])
         || word.strip_prefix('x').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+        || word.split_once('/').is_some_and(|(a, b)| fortran_number(a).is_some() && fortran_number(b).is_some())
 }
 
 /// Units that are words of their own, or the end of a name such as `accel_m_s2` and `a/g`; `g` and `gal` only at the end of the

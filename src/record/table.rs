@@ -98,6 +98,7 @@ impl<'t> Table<'t> {
         let unit = unit.unwrap_or(Unit::Metres);
         match roles {
             Roles::Sequence { step } => self.sequence(step, unit, &mut reading),
+            Roles::Pairs => self.pairs(unit, &mut reading),
             Roles::Column { time, step, column } => self.column(time, step, column, unit, &mut reading),
         }
         if let Some(Announced { line, count, .. }) = self.announced {
@@ -105,7 +106,7 @@ impl<'t> Table<'t> {
         }
         let about = self.lines.first().map_or_else(String::new, |(_, line)| excerpt(line));
         let (components, chosen) = match roles {
-            Roles::Sequence { .. } => (Vec::new(), 0),
+            Roles::Sequence { .. } | Roles::Pairs => (Vec::new(), 0),
             Roles::Column { column, .. } => self.components(column),
         };
         reading.accelerogram(Said { format: Format::Columns, unit, about, components, chosen })
@@ -124,6 +125,21 @@ impl<'t> Table<'t> {
                 }
                 None if reading.is_end(line, count) => {}
                 None => reading.skip(|| on_line(number, format!("{}: expected numbers only", excerpt(line)))),
+            }
+        }
+    }
+
+    /// Several samples in a row, each with its time.
+    fn pairs(&self, unit: Unit, reading: &mut Reading) {
+        for (number, line) in self.layout.rows(self.text) {
+            match self.layout.separators.numbers(line).filter(|values| values.len() % 2 == 0) {
+                Some(values) => {
+                    for pair in values.chunks_exact(2) {
+                        reading.add(pair[0], unit.in_si(pair[1]), |problem| on_line(number, problem));
+                    }
+                }
+                None => reading
+                    .skip(|| on_line(number, format!("{}: expected pairs of time and acceleration", excerpt(line)))),
             }
         }
     }

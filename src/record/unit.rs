@@ -50,7 +50,7 @@ impl Unit {
     pub fn read(text: &str) -> Option<Unit> {
         let plain = text.to_lowercase().replace('²', "2").replace("sec", "s").replace('_', "/");
         let plain: String = plain.chars().filter(|c| !matches!(c, '^' | '*' | '.') && !c.is_whitespace()).collect();
-        let plain = plain.replace("percentof", "%").replace("percent", "%");
+        let plain = plain.replace("percent", "%").replace("pct", "%").replace("%of", "%");
         let of_length = |end: &str| match plain.strip_suffix(end)? {
             "m" => Some(Unit::Metres),
             "cm" => Some(Unit::Centimetres),

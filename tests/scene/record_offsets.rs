@@ -87,6 +87,23 @@ fn a_vertical_component_is_warned_of() {
 }
 
 #[test]
+fn the_component_of_a_peer_file_stands_in_its_title() {
+    let at2 = |component: &str| {
+        format!(
+            "PEER\nSomewhere, 1/2/2003, A station, {component}\nACCELERATION IN UNITS OF G\nNPTS= 2, DT= .01 SEC\n.1 -.1\n"
+        )
+    };
+    for (component, is_vertical) in [("UP", true), ("DWN", true), ("090", false), ("a name that is longer", false)] {
+        let record = Record::parse("a.at2", at2(component).as_bytes()).unwrap();
+        assert_eq!(
+            (record.component == component, record.is_vertical()),
+            (component.len() < 9, is_vertical),
+            "{component}"
+        );
+    }
+}
+
+#[test]
 fn the_mean_is_taken_away_exactly() {
     let mut record = Record::new(vec![0.0, 1.0, 2.0, 3.0], vec![1e16, 1.0, -1e16, 2.0]);
     assert_eq!(record.mean(), 0.75);

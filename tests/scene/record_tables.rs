@@ -72,6 +72,8 @@ fn two_columns_in_every_form() {
         ("Time (s) Acceleration [10^-3 g]", G / 1000.0),
         ("Time (s) Acceleration [mg]", G / 1000.0),
         ("Time (s) Acceleration [milli g]", G / 1000.0),
+        ("Time (s) Acceleration [% of g]", G / 100.0),
+        ("Time (s) Acceleration in g (g = 9.81 m/s2)", G),
         ("Time (s) Acceleration (ft/s2)", 0.3048),
         ("Time (sec) Acceleration (in/sec2)", 0.0254),
         ("Time (s) Acceleration (G/10)", G / 10.0),
@@ -111,8 +113,17 @@ fn what_is_no_unit_of_the_samples() {
         // The user knows it.
         assert_eq!(said(&of(None, Unit::Metres), &text).unwrap().record.accelerations, [1.0, 2.0], "{header}");
     }
-    for header in ["Time (s) Acceleration (g x 100)", "Time (s) Acc (x 10^-4 g)", "t [s] a [g*1000]", "t, a in g / 100"]
-    {
+    for header in [
+        "Time (s) Acceleration (g x 100)",
+        "Time (s) Acc (x 10^-4 g)",
+        "t [s] a [g*1000]",
+        "t, a in g / 100",
+        "t [s] Acceleration (g) x 100",
+        "Time Acc * 1000 [g]",
+        "t (s), 10^-3 (g)",
+        "t a (1/100 g)",
+        "Time, Acc (m/s2) * 10",
+    ] {
         let found = refused(format!("{header}\n0 1\n1 2\n"));
         assert!(found[0].contains("has a factor: expected one of m/s2, cm/s2"), "{header}: {found:?}");
     }
@@ -235,6 +246,11 @@ fn numbers_alone() {
         let found = said(&known, text).unwrap_or_else(|error| panic!("{text}\n{error}"));
         assert_eq!(samples(&found), expected, "{text}");
     }
+    // Pairs of time and value, several in a line.
+    let pairs = "by hand\n0 1 0.02 -2\n0.04 3 0.06 .5\n0.08 1 0.1 2\n0.12 1\n";
+    let found = said(&of(None, Unit::Metres), pairs).unwrap();
+    assert_eq!(found.record.times, [0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12]);
+    assert_eq!(found.record.accelerations, [1.0, -2.0, 3.0, 0.5, 1.0, 2.0, 1.0]);
     // What the file says need not be said.
     assert_eq!(samples(&read("m/s2; dt = 0.02\n1\n-2\n3\n0.5\n")), expected);
     assert_eq!(samples(&said(&of(None, Unit::Metres), "4 0.02\n1 -2 3\n0.5\n").unwrap()), expected);

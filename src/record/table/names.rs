@@ -101,7 +101,7 @@ pub(super) fn kind(name: &str) -> Kind {
     let begins = |names: &[&str]| names.iter().any(|name| words.iter().any(|word| word.starts_with(name)));
     let is = |names: &[&str]| names.contains(&first);
     let has = |names: &[&str]| words.iter().any(|word| names.contains(word));
-    let counts = ["no", "nr", "n", "i", "idx", "#", "pt", "row", "count"];
+    let counts = ["no", "nr", "n", "i", "idx", "#", "pt", "row", "count", "step", "steps", "scan"];
     if words.len() == 1 && is(&counts)
         || ["point", "sample", "index", "number"].iter().any(|name| first.starts_with(name))
     {

@@ -20,6 +20,8 @@ const ROUNDED: f64 = 0.02;
 pub(super) enum Roles {
     /// Accelerations only, one after the other.
     Sequence { step: f64 },
+    /// Time and acceleration in turn, several pairs in a line.
+    Pairs,
     /// A row a sample: the column of the times, or the step; where there are both they are compared.
     Column { time: Option<usize>, step: Option<f64>, column: usize },
 }
@@ -33,6 +35,9 @@ pub(super) fn find(table: &Table<'_>, options: &RecordOptions, reading: &mut Rea
         return None;
     }
     let step = step(table, options, reading);
+    if options.column.is_none() && table.names.is_empty() && are_pairs(table) {
+        return Some(Roles::Pairs);
+    }
     let is_counter = kinds.first() == Some(&Kind::Counter);
     let first = first_column(table);
     let time = match kinds.first() {
@@ -108,6 +113,18 @@ fn first_column(table: &Table<'_>) -> Vec<f64> {
     let Layout { separators, columns, .. } = table.layout;
     let rows = table.layout.rows(table.text).filter_map(|(_, row)| separators.numbers(row));
     rows.filter(|values| values.len() == columns).take(LOOKED_AT).map(|values| values[0]).collect()
+}
+
+/// Whether every other number of rows of four and more is a time: they grow from row to row and within each.
+fn are_pairs(table: &Table<'_>) -> bool {
+    const ROWS: usize = 3;
+    let Layout { separators, columns, .. } = table.layout;
+    if columns < 4 || columns % 2 == 1 {
+        return false;
+    }
+    let rows = table.layout.rows(table.text).filter_map(|(_, row)| separators.numbers(row)).take(LOOKED_AT);
+    let times: Vec<f64> = rows.flat_map(|row| row.into_iter().step_by(2)).collect();
+    times.len() >= ROWS * columns / 2 && times.windows(2).all(|pair| pair[1] > pair[0])
 }
 
 /// Whether a first column without a name is the time.
