@@ -18,6 +18,8 @@ pub enum Format {
     Csmip,
     /// COSMOS, volume 2.
     Cosmos,
+    /// CSMIP, USC and RENADIC, BHRC: volume 1, uncorrected.
+    Volume1,
     /// Columns of text.
     Columns,
 }
@@ -31,6 +33,7 @@ impl fmt::Display for Format {
             Format::Esm => "ESM, ITACA",
             Format::Csmip => "CSMIP volume 2",
             Format::Cosmos => "COSMOS volume 2",
+            Format::Volume1 => "volume 1",
             Format::Columns => "columns of text",
         })
     }

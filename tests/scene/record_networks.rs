@@ -1,0 +1,310 @@
+//! Records of networks that have a format of their own, in the exact layout of each with numbers of our own: values by hand.
+
+use pounding::record::{Accelerogram, Column, Format, RecordOptions};
+
+fn wanting(wanted: &str) -> RecordOptions {
+    let column = match wanted {
+        "" => None,
+        _ => Some(wanted.parse().map_or_else(|_| Column::Name(wanted.to_owned()), Column::Number)),
+    };
+    RecordOptions { column, ..RecordOptions::default() }
+}
+
+/// Of a component, `""` where none is asked for.
+fn read(wanted: &str, text: impl AsRef<[u8]>) -> Accelerogram {
+    Accelerogram::parse("download", &wanting(wanted), text.as_ref()).unwrap()
+}
+
+fn refused(wanted: &str, text: impl AsRef<[u8]>) -> Vec<String> {
+    Accelerogram::parse("download", &wanting(wanted), text.as_ref()).unwrap_err().problems
+}
+
+/// What each format takes in its stride.
+fn reads_the_same(text: &str) {
+    let plain = read("", text).record;
+    let trimmed = text.trim_end().to_owned();
+    for form in
+        [text.replace('\n', "\r\n"), trimmed.clone(), format!("{trimmed}\n\n \n"), format!("\u{feff}{text}\u{1a}")]
+    {
+        assert_eq!(read("", &form).record, plain, "{form}");
+    }
+    let latin: Vec<u8> =
+        text.replacen("STATION", "ST\u{c4}TION", 1).chars().map(|c| u8::try_from(c).unwrap()).collect();
+    assert_eq!(read("", latin).record, plain);
+}
+
+fn is_near(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-12), "{found:?}");
+}
+
+/// A channel of digitised film, as CSMIP and RENADIC hand it out: pairs of seven characters, which touch from 100 s on.
+const FILM: &str = "\
+UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/30/2011
+SOMEWHERE EARTHQUAKE
+11/13/2009 3:05:27 (GMT)                (ORIGIN: 11/13/2009 3:05:27 GMT)
+                                   TRIGGER TIME: 11/13/2009 3:06:17.600 GMT
+STATION NO.         18.483S   70.314W  SMA-1     S/N  815 (3  CHNS OF 3  AT STA)
+NOWHERE S/N 815
+CHAN  1: EW       (STA CHN:  1)               
+A UNIVERSITY
+HYPOCENTER:   0.000N    0.000E  H=   0.0KM   ML= 0.00
+INSTR PERIOD = 0.0195 SEC,  DAMPING =0.6500,  SENSITIVITY =2.508 VDC/G
+NO. OF POINTS =      7  RECORD LENGTH =100.010 SEC
+UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  = -1.250 G, AT 100.000 SEC
+RMS ACCEL OF COMPLETE RECORD = 0.005 G
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0
+      .040      .600      .600      .600      .600      .600      .600      .600
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+      .000      .000
+  0.000  0.125  0.005 -0.500 99.995  0.250100.000-12.500100.003  1.000
+100.006 -0.001100.010  2.000
+/&  ----------  END OF DATA FOR CHANNEL 1  ----------
+";
+
+fn film() -> String {
+    let channel = |number: usize, name: &str, last: &str| {
+        FILM.replace("CHAN  1: EW", &format!("CHAN  {number}: {name}"))
+            .replace("100.010  2.000", &format!("100.010  {last}"))
+    };
+    channel(1, "V ", "1.000") + &channel(2, "EW", "2.000") + &channel(3, "NS", "3.000")
+}
+
+/// Tenths of g in m/s2, of numbers that are sums of powers of two: the product is rounded once.
+fn tenths(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| value * 9.80665 / 10.0).collect()
+}
+
+#[test]
+fn volume_1_of_film() {
+    let found = read("", film());
+    assert_eq!(found.record.times, [0.0, 0.005, 99.995, 100.0, 100.003, 100.006, 100.01]);
+    assert_eq!(found.record.accelerations, tenths(&[0.125, -0.5, 0.25, -12.5, 1.0, -0.001, 2.0]));
+    is_near(&found.record.accelerations[3..4], &[-12.2583125]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Volume1, "g/10"));
+    assert_eq!(found.channels, ["CHAN  1: V", "CHAN  2: EW", "CHAN  3: NS"]);
+    assert_eq!(found.about, "NOWHERE S/N 815, CHAN  2: EW", "the first horizontal one");
+    for (wanted, last) in [("1", 1.0), ("2", 2.0), ("3", 3.0), ("CHAN  3: NS", 3.0), ("NS", 3.0), ("v", 1.0)] {
+        assert_eq!(read(wanted, film()).record.accelerations[6..], tenths(&[last]), "{wanted}");
+    }
+    assert!(read("1", film()).record.is_vertical());
+    assert_eq!(refused("4", film()), ["#4: expected one of #1 CHAN  1: V, #2 CHAN  2: EW, #3 CHAN  3: NS"]);
+    reads_the_same(&film());
+}
+
+#[test]
+fn volume_1_of_film_that_is_refused() {
+    let says = |from: &str, to: &str| refused("", FILM.replace(from, to));
+    let count = |said: usize, found: usize| {
+        vec![format!("line 11: NO. OF POINTS = {said}: expected {found}, the number of samples in the file")]
+    };
+    assert_eq!(says("POINTS =      7", "POINTS =      8"), count(8, 7));
+    assert_eq!(says("100.006 -0.001100.010  2.000\n", ""), count(7, 5));
+    let peak = "line 12: a peak of -0.125 g: expected that of the samples, 1.25 g";
+    assert_eq!(says("MAX  = -1.250", "MAX  = -0.125"), [peak]);
+    let long = "line 11: a duration of 130.01 s: expected that of the samples, 100.01 s";
+    assert_eq!(says("=100.010", "=130.010"), [long]);
+    let unit = "line 12: UNITS OF UNCOR ACCEL ARE SEC AND COUNTS.     M...: expected SEC AND G/10 or another unit of acceleration";
+    assert_eq!(says("G/10.", "COUNTS."), [unit]);
+    let cut = "volume 1: cut off within its headers: expected 100 whole and 50 real numbers below the words";
+    assert_eq!(refused("", &FILM[..FILM.find("    0    0").unwrap()])[0], cut);
+    assert_eq!(
+        refused("", &FILM[..60]),
+        [
+            "volume 1: no NO. OF POINTS: expected it in the header, with a number of samples",
+            "volume 1: no UNITS: expected it in the header, with SEC AND G/10",
+        ]
+    );
+}
+
+/// A file of USC, whose rows begin a character later.
+const USC: &str = "\
+FILE     1 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:
+SOMEWHERE EARTHQUAKE                                                    21
+JAN 17, 1994 -1230 GMT                                                  22
+IBB102  94.170.0 N                                                      18
+STATION USC# 0017   34 06 52N, 118 22 47W                               39
+12 MAIN ST., NOWHERE, CA                                                37
+COMP S05W                                                               9
+SOMEWHERE EARTHQUAKE   JAN 17, 1994 -1230 GMT                           46
+EPICENTER -   34 12 48N, 118 32 13W                                     35
+INSTR PERIOD =  .037 SEC  DAMPING =   .540  SENSITIVITY =   1.68CM/G    69
+NO. OF POINTS =      6      DURATION =    .021 SEC                      50
+UNITS ARE SEC AND G/10                                                  22
+RMS ACCLN. OF COMPLETE RECORD =     .143 G/10                           45
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0
+      .040      .600      .600      .600      .600      .600      .600      .600
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+      .000      .000
+    .000   .125   .004  -.500   .008   .250   .013 -1.250   .017   .375
+    .021   .625
+";
+
+#[test]
+fn volume_1_of_usc() {
+    let found = read("", USC);
+    assert_eq!(found.record.times, [0.0, 0.004, 0.008, 0.013, 0.017, 0.021]);
+    assert_eq!(found.record.accelerations, tenths(&[0.125, -0.5, 0.25, -1.25, 0.375, 0.625]));
+    assert_eq!((found.format, found.about.as_str()), (Format::Volume1, "12 MAIN ST., NOWHERE, CA, S05W"));
+    reads_the_same(USC);
+    assert_eq!(read("", USC.to_owned() + "VLEE $\n").record, found.record, "words behind the last sample");
+    assert!(read("", USC.replace("COMP S05W", "COMP  UP ")).record.is_vertical());
+    let count = "line 11: NO. OF POINTS = 6: expected 5, the number of samples in the file";
+    assert_eq!(refused("", USC.replace("    .021   .625\n", "")), [count]);
+}
+
+/// A component of BHRC, whose header has lost what stood beyond 71 characters.
+const BHRC: &str = "\
+* VOL1DS FILE:  5526/01
+Inst Type = SSA-2
+Origin Time : 2012/08/11   12:23:16
+
+L
+
+COMP L1
+Nowhere                   Station   37.734 N 47.801 E   Altitude 2026m   Azimuth L 50    T 140
+Epicenter 38.520 N 46.860 E   FD 12 Km mb      Ms      Mw6.1   M        ML   (BHRC   )
+INSTR PERIOD =  .020 SEC   DAMPING =  .640
+NO. OF POINTS =     12      DURATION =   .060
+UNITS ARE SECONDS AND G/10
+
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0
+  .202020E-01  .640000E+00  .500000E-01  .000000E+00  .100000E+00  .00
+  .200000E+03  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .00
+  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .00
+  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .00
+  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .00
+  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .000000E+00  .00
+  .000000E+00  .000000E+00
+  .125000E+00 -.500000E+00  .250000E+00 -.125000E+01  .375000E+00  .625000E+00  .100000E+01  .000000E+00 -.100000E-01  .500000E-02
+  .750000E+00 -.875000E+00
+/&
+";
+
+#[test]
+fn volume_1_of_bhrc() {
+    let file = BHRC.to_owned() + &BHRC.replace("COMP L1", "COMP V2").replace("-.875", "-.750");
+    let file = file + &BHRC.replace("COMP L1", "COMP T3").replace("-.875", "-.625");
+    let found = read("", &file);
+    let expected = [0.125, -0.5, 0.25, -1.25, 0.375, 0.625, 1.0, 0.0, -0.01, 0.005, 0.75, -0.875];
+    assert_eq!(found.record.accelerations, tenths(&expected));
+    assert_eq!(found.record.times, [0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045, 0.05, 0.055]);
+    assert_eq!((found.format, found.channels), (Format::Volume1, vec!["L".to_owned(), "V".to_owned(), "T".to_owned()]));
+    assert_eq!(found.about, "Nowhere, L");
+    for (wanted, last) in [("1", -0.875), ("2", -0.75), ("V", -0.75), ("3", -0.625), ("t", -0.625)] {
+        assert_eq!(read(wanted, &file).record.accelerations[11..], tenths(&[last]), "{wanted}");
+    }
+    assert!(read("2", &file).record.is_vertical());
+    reads_the_same(&file);
+    let says = |from: &str, to: &str| refused("", BHRC.replace(from, to));
+    let count = "line 11: NO. OF POINTS = 12: expected 10, the number of samples in the file";
+    assert_eq!(says("  .750000E+00 -.875000E+00\n", ""), [count]);
+    let rate = "line 22: real number 9, the sampling rate, .000000E+00: expected a number > 0";
+    assert_eq!(says("  .200000E+03  .0", "  .000000E+00  .0"), [rate]);
+    let long = "line 11: a duration of 0.06 s: expected that of the samples, 5.5 s";
+    assert_eq!(says("  .200000E+03  .0", "  .200000E+01  .0"), [long]);
+}
+
+/// A channel of CSMIP with a line that says step, unit and format.
+const UNCORRECTED: &str = "\
+Uncorrected Accelerogram Data             Processed: 02/13/12, CGS  146be002    
+Record of Mon Feb 13, 2012 13:06:45.0 PST             (Avol1 v9.2,12/11 CSMIP)  
+Station No. 89146   40.941N, 123.633W      Etna  s/n 2500  (3 Chns of  3 at Sta)
+Chan  1: 360 Deg                                                                
+No. of Points =     10  Record Length =   .050 sec   at 200 Samples/sec         
+Units of uncor data are sec and g .        Max  =  -.250 g , at    .010 sec.    
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
+    0    0    0    0
+      .040      .600      .600      .600      .600      .600      .600      .600
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+           .000      .000      .000      .000      .000      .000      .000      .000
+      .000      .000
+    10 Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)  
+  .015625  .125000 -.250000  .000001 -.000002  .031250  .062500 -.125000
+  .000000  .007812
+/&  ----------  End of Data for Channel  1  ----------
+";
+
+#[test]
+fn volume_1_of_csmip() {
+    let file = UNCORRECTED.to_owned()
+        + &UNCORRECTED.replace("Chan  1: 360 Deg", "Chan  2: Up     ").replace(".007812", ".003906");
+    let found = read("", &file);
+    let in_g = [0.015625, 0.125, -0.25, 0.000001, -0.000002, 0.03125, 0.0625, -0.125, 0.0, 0.007812];
+    assert_eq!(found.record.accelerations, in_g.map(|value| value * 9.80665));
+    assert_eq!(found.record.times, [0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Volume1, "g"));
+    assert_eq!(found.channels, ["Chan  1: 360 Deg", "Chan  2: Up"]);
+    assert_eq!(read("Up", &file).record.accelerations[9], 0.003906 * 9.80665);
+    reads_the_same(&file);
+    let says = |from: &str, to: &str| refused("", UNCORRECTED.replace(from, to));
+    let count = "line 21: points of acceleration = 10: expected 8, the number of samples in the file";
+    assert_eq!(says("  .000000  .007812\n", ""), [count]);
+    let peak = "line 6: a peak of -0.15 g: expected that of the samples, 0.25 g";
+    assert_eq!(says("=  -.250 g", "=  -.150 g"), [peak]);
+    let rate = "line 21: points at 0: expected the s from sample to sample";
+    assert_eq!(says("points at 200", "points at 0  "), [rate]);
+    let older = UNCORRECTED.replace(
+        "Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)",
+        "POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)",
+    );
+    assert_eq!((read("", &older).record, read("", older).format), (read("", UNCORRECTED).record, Format::Volume1));
+}
+
+/// Formats that are known and not read are told by their names.
+#[test]
+fn what_is_told_apart_and_refused() {
+    let spectra =
+        "Response and Fourier amplitude spectra (86 periods,  .04 - 10.0 sec)   for\nCorrected accelerogram\n";
+    let told = "CSMIP volume 3, spectra: expected the accelerogram, in the file of the volume 2 or 1 beside it";
+    assert_eq!(refused("", spectra), [told]);
+    let usace = " A HOUSE\n NO OF POINTS=  4, UNITS=CM/SEC**2, CM/SEC, AND CM\n   1.00   2.00   3.00   4.00\n";
+    assert!(refused("", usace)[0].starts_with("USACE, acceleration, velocity and displacement one after the other"));
+}
+
+/// What is announced is not believed: neither time nor memory goes with it.
+#[test]
+fn huge_counts_are_only_compared() {
+    const HUGE: &str = "99999999999999999";
+    for (text, count) in
+        [(FILM.to_owned(), "      7 "), (BHRC.to_owned(), "     12 "), (UNCORRECTED.to_owned(), "    10 Acc")]
+    {
+        let huge = count.replace("/5/5/5", "/5/@/5").replace(|c: char| c.is_ascii_digit(), "@");
+        let huge = text.replacen(count, &huge.replacen('@', HUGE, 1).replace('@', ""), 1);
+        assert_eq!(refused("", &huge).len(), 1, "{huge}");
+    }
+}
