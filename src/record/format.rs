@@ -20,6 +20,8 @@ pub enum Format {
     Cosmos,
     /// CSMIP, USC and RENADIC, BHRC: volume 1, uncorrected.
     Volume1,
+    /// USGS, SMC.
+    Smc,
     /// Columns of text.
     Columns,
 }
@@ -34,6 +36,7 @@ impl fmt::Display for Format {
             Format::Csmip => "CSMIP volume 2",
             Format::Cosmos => "COSMOS volume 2",
             Format::Volume1 => "volume 1",
+            Format::Smc => "USGS SMC",
             Format::Columns => "columns of text",
         })
     }

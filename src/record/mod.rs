@@ -49,6 +49,7 @@ mod others;
 mod parse;
 mod reading;
 mod said;
+mod smc;
 mod table;
 mod unit;
 mod volume1;

@@ -38,6 +38,110 @@ fn is_near(found: &[f64], expected: &[f64]) {
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-12), "{found:?}");
 }
 
+/// As the USGS hands them out: 10 samples of 200 a second.
+const SMC: &str = "\
+2 CORRECTED ACCELEROGRAM
+*
+ABC0A
+     1989  10  18    0004 Somewhere, CA
+Moment Mag=      7.1 Ms=      7.1 Ml=      7.0
+station = Nowhere, 12 Main St            component=     45
+epicentral dist =     96.0       pk acc =    123.4
+inst type=SMA-1      data source = USGS
+*
+*
+*
+    -32768      1989       291         0         4         0    -32768       444
+         1         1         1    -32768        90        45       101         2
+        10    -32768    -32768    -32768    -32768    -32768    -32768    -32768
+    -32768    -32768    -32768    -32768    -32768    -32768    -32768    -32768
+    -32768    -32768    -32768    -32768    -32768    -32768    -32768    -32768
+    -32768    -32768    -32768    -32768    -32768    -32768    -32768    -32768
+  0.1700000E+39  0.2000000E+03  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1234500E+03
+  0.3450000E+01 -0.4500000E+02  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39
+|
+|ref - a comment
+ 1.5000E+0-2.2500E+1 1.2345E+2-1.0000E-1 0.0000E+0 3.0000E+0-4.0000E+0 5.0000E+0
+-6.0000E+0 7.0000E+0
+";
+
+/// The same as pairs of time and acceleration, 12 numbers; behind them the line that no sample belongs to.
+fn smc_pairs() -> String {
+    let (head, _) = SMC.split_once(" 1.5000E+0").unwrap();
+    let head = head
+        .replace("2 CORR", "1 UNCORR")
+        .replace("  0.2000000E+03", "  0.1700000E+39")
+        .replace("        10 ", "        12 ");
+    head + " 0.0000E+0 1.0000E+0 1.0000E+1-2.0000E+0 1.0001E+1 1.2345E+2 1.0001E+1-4.5000E+1\n 1.0001E+1 5.0000E+0 1.0002E+1 6.0000E+0\n \
+            1.0000E+0-1.0000E+0 1.1000E+0-1.0000E+0 1.2000E+0-1.0000E+0 1.3000E+0-1.0000E+0\n"
+}
+
+#[test]
+fn smc_at_equal_intervals() {
+    let found = read("", SMC);
+    assert_eq!(found.record.accelerations, [0.015, -0.225, 1.2345, -0.001, 0.0, 0.03, -0.04, 0.05, -0.06, 0.07]);
+    assert_eq!(found.record.times, [0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Smc, "cm/s2"));
+    assert_eq!((found.record.component.as_str(), found.about.as_str()), ("45", "Nowhere, 12 Main St, 45"));
+    assert!(found.channels.is_empty() && !found.record.is_vertical());
+    reads_the_same(SMC);
+    // Of uncorrected ones some are at equal intervals as well.
+    assert_eq!(read("", SMC.replace("2 CORR", "1 UNCORR")).record, found.record);
+    assert!(read("", SMC.replace("component=     45", "component=     up")).record.is_vertical());
+    let silent = SMC.replace("component=     45", "").replace("        90        45", "         0    -32768");
+    assert_eq!(read("", silent).record.component, "up");
+    assert_eq!(read("", SMC.replace("component=     45", "")).record.component, "45");
+    assert_eq!(read("1", SMC).record, found.record);
+}
+
+#[test]
+fn smc_as_pairs() {
+    let found = read("", smc_pairs());
+    // Five digits do not tell three of the times apart: they are spread up to the next one.
+    is_near(&found.record.times, &[0.0, 10.0, 10.001, 10.0015, 10.00175, 10.002]);
+    assert_eq!(found.record.accelerations, [0.01, -0.02, 1.2345, -0.45, 0.05, 0.06]);
+    reads_the_same(&smc_pairs());
+    let (without, _) =
+        smc_pairs().split_once(" 1.0000E+0-1.0000E+0 1.1000E").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    assert_eq!(read("", &without).record, found.record);
+    let more = smc_pairs() + " 2.0000E+1 1.0000E+0\n";
+    assert_eq!(refused("", more), ["line 14: pairs of values = 6: expected 7, the number of samples in the file"]);
+    let back = "line 30: time 9.001 s: expected more than the time before it, 10 s";
+    assert_eq!(refused("", smc_pairs().replace("1.0001E+1 1.2345E+2", "9.0010E+0 1.2345E+2")), [back]);
+    let odd = without.replace(" 1.0002E+1 6.0000E+0", " 1.0002E+1");
+    assert_eq!(refused("", odd), ["line 31: a time without an acceleration: expected pairs"]);
+}
+
+#[test]
+fn smc_that_is_refused() {
+    let says = |from: &str, to: &str| refused("", SMC.replace(from, to));
+    let count = |said: usize, found: usize| {
+        [format!("line 14: values = {said}: expected {found}, the number of samples in the file")]
+    };
+    assert_eq!(says("        10 ", "        11 "), count(11, 10));
+    assert_eq!(says("-6.0000E+0 7.0000E+0\n", ""), count(10, 8));
+    assert_eq!(says(" 7.0000E+0", " 7.0o00E+0"), ["line 31: 7.0o00E+0: expected a number"]);
+    let peak = "line 23: a peak of 234.5 cm/s2: expected that of the samples, 123.45 cm/s2";
+    assert_eq!(says("  0.1234500E+03", "  0.2345000E+03"), [peak]);
+    for kind in ["3 VELOCITY", "4 DISPLACEMENT", "5 RESPONSE SPECTRA"] {
+        assert_eq!(
+            says("2 CORRECTED ACCELEROGRAM", kind),
+            [format!("line 1: {}: expected an accelerogram", &kind[2..])]
+        );
+    }
+    let cut = &SMC[..SMC.find("  0.1234500E+03").unwrap()];
+    assert_eq!(refused("", cut), ["SMC: 29 numbers in lines 18 to 27: expected 50"]);
+    assert_eq!(refused("2", SMC), ["#2: expected a file with channels, this is USGS SMC"]);
+}
+
 /// A channel of digitised film, as CSMIP and RENADIC hand it out: pairs of seven characters, which touch from 100 s on.
 const FILM: &str = "\
 UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/30/2011
@@ -300,9 +404,12 @@ fn what_is_told_apart_and_refused() {
 #[test]
 fn huge_counts_are_only_compared() {
     const HUGE: &str = "99999999999999999";
-    for (text, count) in
-        [(FILM.to_owned(), "      7 "), (BHRC.to_owned(), "     12 "), (UNCORRECTED.to_owned(), "    10 Acc")]
-    {
+    for (text, count) in [
+        (SMC.to_owned(), "        10 "),
+        (FILM.to_owned(), "      7 "),
+        (BHRC.to_owned(), "     12 "),
+        (UNCORRECTED.to_owned(), "    10 Acc"),
+    ] {
         let huge = count.replace("/5/5/5", "/5/@/5").replace(|c: char| c.is_ascii_digit(), "@");
         let huge = text.replacen(count, &huge.replacen('@', HUGE, 1).replace('@', ""), 1);
         assert_eq!(refused("", &huge).len(), 1, "{huge}");
