@@ -22,6 +22,8 @@ pub enum Format {
     Volume1,
     /// USGS, SMC.
     Smc,
+    /// GeoNet of New Zealand, V1A and V2A.
+    Geonet,
     /// Columns of text.
     Columns,
 }
@@ -37,6 +39,7 @@ impl fmt::Display for Format {
             Format::Cosmos => "COSMOS volume 2",
             Format::Volume1 => "volume 1",
             Format::Smc => "USGS SMC",
+            Format::Geonet => "GeoNet V1A, V2A",
             Format::Columns => "columns of text",
         })
     }

@@ -39,6 +39,7 @@ mod csv;
 mod esm;
 mod file;
 mod format;
+mod geonet;
 mod header;
 mod knet;
 mod known;

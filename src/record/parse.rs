@@ -5,7 +5,7 @@ use super::components::{self, Component};
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{at2, binary, csv, esm, knet, others, smc, table, volume1, volume2};
+use super::{at2, binary, csv, esm, geonet, knet, others, smc, table, volume1, volume2};
 use crate::figures::plain;
 
 impl Accelerogram {
@@ -75,6 +75,7 @@ fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelero
     match () {
         () if csv::is_it(text) => csv::parse(text).and_then(|found| found.of_column(options, csv::COLUMN)),
         () if smc::is_it(text) => one(smc::parse(text)),
+        () if geonet::is_it(text) => geonet::parse(text, wanted),
         () if volume2::is_it(text) => volume2::parse(text, wanted),
         () if knet::is_it(text) => one(knet::parse(text)),
         () if esm::is_it(text) => one(esm::parse(text)),

@@ -207,7 +207,7 @@ impl Reading {
         let Said { format, unit, about, components, chosen } = said;
         let mut record = self.complete()?;
         record.component = components.get(chosen).map(|one| one.name.clone()).unwrap_or_default();
-        let of_channels = [Format::Csmip, Format::Cosmos, Format::Volume1];
+        let of_channels = [Format::Csmip, Format::Cosmos, Format::Volume1, Format::Geonet];
         let has_channels = components.len() > 1 || of_channels.contains(&format);
         let names = components.into_iter().map(|component| component.name);
         let channels = if has_channels { names.collect() } else { Vec::new() };

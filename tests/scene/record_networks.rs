@@ -142,6 +142,103 @@ fn smc_that_is_refused() {
     assert_eq!(refused("2", SMC), ["#2: expected a file with channels, this is USGS SMC"]);
 }
 
+/// A component as GeoNet hands it out in the file V2A.
+const GEONET: &str = "\
+Corrected accelerogram 20180212_211554_ABCD_20 GNS Science
+Site ABCD      39 56 38S  176 35 04E     Basalt file:  20180212_211557_ABCD
+Somewhere Town Hall
+Instrument Basalt_2413
+Resolution: 24-bit   Instr Period: 0.0050 s   Damping: 0.700
+Accelerogram 20180212_211554_ABCD_20                 Processed 2018 February 21
+6 km south of Nowhere
+2018 February 12         21:15:54 UT
+Epicentre  40 03 27S 176 32 45E  Bearing S15W  Dist   13km  Depth    9km M  4.17
+Number of points    12    Duration   0.22 sec
+Instrument corrected data at 0.020 sec intervals
+Band-pass filter transition bands are .10-.25 Hz and 24.50-25.50 Hz
+Component S16W  Longitudinal Accelerometer Axis
+Acceleration:  peak -12345.5 mm/s/s at   0.04 sec     rms      2.2 mm/s/s
+Velocity:      peak     1.65 mm/s   at   0.06 sec     rms     0.09 mm/s
+Displacement:  peak    0.131 mm     at   0.06 sec     rms    0.007 mm
+    2018       2      12      21      15     540       0       0    2018       2
+      40       3      27     176      32      45       9       0      12      21
+      39      56      38     176      35       4     196     196     195      13
+   21200     250     250      12      12      12       0       0      15   17000
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00
+     1.0  1234.5-12345.5    -3.5    -4.0     5.0    -6.0     7.0    -8.0     9.0
+   -10.0    11.0
+";
+
+fn geonet() -> String {
+    let others = "  0.0001  0.0002  0.0003  0.0004  0.0005  0.0006  0.0007  0.0008  0.0009  0.0010\n  0.0011  0.0012\n"
+        .repeat(2);
+    let one = GEONET.to_owned() + &others;
+    let two = one.replace("S16W  Longitudinal", "S74E  Transverse").replace("   -10.0    11.0", "   -20.0    11.0");
+    let up = one.replace("S16W  Longitudinal", "Up    Vertical").replace("   -10.0    11.0", "   -30.0    11.0");
+    up + &one + &two
+}
+
+#[test]
+fn geonet_in_mm() {
+    let found = read("", geonet());
+    let expected = [0.001, 1.2345, -12.3455, -0.0035, -0.004, 0.005, -0.006, 0.007, -0.008, 0.009, -0.01, 0.011];
+    assert_eq!(found.record.accelerations, expected);
+    assert_eq!(found.record.times, (0..12).map(|k| f64::from(k) * 0.02).collect::<Vec<_>>());
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Geonet, "mm/s2"));
+    assert_eq!(found.channels, ["Up", "S16W", "S74E"], "the first horizontal one is read");
+    assert_eq!(found.record.component, "S16W");
+    for (wanted, eleventh) in [("1", -0.03), ("up", -0.03), ("2", -0.01), ("3", -0.02), ("S74E", -0.02)] {
+        assert_eq!(read(wanted, geonet()).record.accelerations[10], eleventh, "{wanted}");
+    }
+    assert!(read("1", geonet()).record.is_vertical());
+    assert_eq!(refused("4", geonet()), ["#4: expected one of #1 Up, #2 S16W, #3 S74E"]);
+    reads_the_same(&geonet());
+    // V1A: the accelerations only.
+    let raw = GEONET.replace("Corrected", "Uncorrected").replace("Velocity:      peak", "Velocity record unevaluated");
+    let raw = raw.replace("Displacement:  peak", "Displacement record unevaluated");
+    let raw = raw.replace(
+        "Instrument corrected data at 0.020 sec intervals",
+        "Raw readings in units of 1.00 mm/s/s  at intervals of 0.005 s",
+    );
+    let raw = read("", raw.replace("0.22 sec", "0.06 s"));
+    assert_eq!((raw.record.accelerations, raw.record.times[3]), (found.record.accelerations, 0.015));
+}
+
+#[test]
+fn geonet_that_is_refused() {
+    let says = |from: &str, to: &str| refused("S16W", geonet().replace(from, to));
+    // 22 would be the accelerations and the first line of velocities.
+    for said in [9, 22] {
+        let expected = "expected 3 times as many in the 6 lines below";
+        let found = says("points    12 ", &format!("points{said:6} "));
+        assert!(found.contains(&format!("line 42: Number of points {said}: {expected}")), "{found:?}");
+    }
+    let short = says("   -10.0    11.0\n", "   -10.0\n");
+    assert_eq!(short, ["line 42: Number of points = 12: expected 11, the number of samples in the file"]);
+    let cut = geonet();
+    let cut = &cut[..cut.rfind("   -20.0    11.0").unwrap()];
+    let missing = "line 74: Number of points = 12: expected 10, the number of samples in the file";
+    assert_eq!(refused("S74E", cut), [missing]);
+    let peak = "line 46: a peak of -1234.5 mm/s2: expected that of the samples, 12345.5 mm/s2";
+    assert_eq!(says("peak -12345.5", "peak  -1234.5"), [peak]);
+    let unit =
+        "line 46: Acceleration: peak -12345.5 mm/s at   0.04 sec     rms...: expected the peak and its unit, mm/s/s";
+    assert_eq!(says("-12345.5 mm/s/s", "-12345.5 mm/s"), [unit]);
+    let long = "line 42: a duration of 60.22 s: expected that of the samples, 0.22 s";
+    assert_eq!(says("Duration   0.22", "Duration  60.22"), [long]);
+    let raw = says("Instrument corrected data at", "Raw readings in units of 10.0 mm/s/s  at intervals of");
+    assert_eq!(raw, ["line 43: readings in units of 10 mm/s/s: expected 1 of them"]);
+    assert_eq!(
+        refused("", &GEONET[..400])[0],
+        "GeoNet: no Number of points: expected it in the header, with a number of samples"
+    );
+}
+
 /// A channel of digitised film, as CSMIP and RENADIC hand it out: pairs of seven characters, which touch from 100 s on.
 const FILM: &str = "\
 UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/30/2011
@@ -406,6 +503,7 @@ fn huge_counts_are_only_compared() {
     const HUGE: &str = "99999999999999999";
     for (text, count) in [
         (SMC.to_owned(), "        10 "),
+        (GEONET.to_owned(), "    12 "),
         (FILM.to_owned(), "      7 "),
         (BHRC.to_owned(), "     12 "),
         (UNCORRECTED.to_owned(), "    10 Acc"),
