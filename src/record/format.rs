@@ -24,6 +24,12 @@ pub enum Format {
     Smc,
     /// GeoNet of New Zealand, V1A and V2A.
     Geonet,
+    /// AFAD of Turkey, in three columns.
+    Afad,
+    /// CWA of Taiwan.
+    Cwa,
+    /// UNAM of Mexico.
+    Unam,
     /// Columns of text.
     Columns,
 }
@@ -40,6 +46,9 @@ impl fmt::Display for Format {
             Format::Volume1 => "volume 1",
             Format::Smc => "USGS SMC",
             Format::Geonet => "GeoNet V1A, V2A",
+            Format::Afad => "AFAD",
+            Format::Cwa => "CWA",
+            Format::Unam => "UNAM",
             Format::Columns => "columns of text",
         })
     }

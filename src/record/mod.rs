@@ -32,10 +32,12 @@
 //! ```
 
 mod accelerogram;
+mod afad;
 mod at2;
 mod binary;
 mod components;
 mod csv;
+mod cwa;
 mod esm;
 mod file;
 mod format;
@@ -52,6 +54,7 @@ mod reading;
 mod said;
 mod smc;
 mod table;
+mod unam;
 mod unit;
 mod volume1;
 mod volume2;

@@ -5,7 +5,7 @@ use super::components::{self, Component};
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{at2, binary, csv, esm, geonet, knet, others, smc, table, volume1, volume2};
+use super::{afad, at2, binary, csv, cwa, esm, geonet, knet, others, smc, table, unam, volume1, volume2};
 use crate::figures::plain;
 
 impl Accelerogram {
@@ -80,6 +80,9 @@ fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelero
         () if knet::is_it(text) => one(knet::parse(text)),
         () if esm::is_it(text) => one(esm::parse(text)),
         () if volume1::is_it(text) => volume1::parse(text, wanted),
+        () if cwa::is_it(text) => cwa::parse(text, wanted),
+        () if afad::is_it(text) => afad::parse(text, wanted),
+        () if unam::is_it(text) => unam::parse(text, wanted),
         () if at2::is_it(text) => one(at2::parse(text)),
         () => match table::parse(text, options) {
             Some(Ok(found)) => Ok(found),

@@ -486,6 +486,197 @@ fn volume_1_of_csmip() {
     assert_eq!((read("", &older).record, read("", older).format), (read("", UNCORRECTED).record, Format::Volume1));
 }
 
+/// A file of the network of Turkey.
+const AFAD: &str = "\
+STRONG GROUND MOTION RECORDS OF TURKIYE
+PLACE                   : SOMEWHERE
+EARTHQUAKE DATE         : 2017/07/20 22:31:09 (GMT)
+EPICENTER COORDINATES   : 36.91980N-27.44350E
+EARTHQUAKE MAGNITUDE    : 6.5 Mw
+STATION ID              : 0999
+STATION ALTITUDE (m)    : 66
+RECORD TIME             : 20/07/2017 22:30:58.000000 (GMT)
+NUMBER OF DATA          : 4
+SAMPLING INTERVAL (sec) : 0.01
+RAW PGA VALUES (gal)    : (N-S) 12.500000 (E-W) 25.000000 (U-D) 2.500000
+Copyright EARTHQUAKE DEPARTMENT
+DISASTER AND EMERGENCY MANAGEMENT PRESIDENCY
+       N-S          E-W          U-D
+    0.000500     -0.250000    -0.100000
+  -12.500000     25.000000     2.500000
+    0.750000      0.125000     0.001000
+    1.000000     -1.500000     0.002000
+";
+
+#[test]
+fn afad_in_three_columns() {
+    let found = read("", AFAD);
+    assert_eq!(found.record.accelerations, [0.000005, -0.125, 0.0075, 0.01]);
+    assert_eq!(found.record.times, [0.0, 0.01, 0.02, 0.03]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Afad, "cm/s2"));
+    assert_eq!(
+        (found.record.component.as_str(), &found.channels[..]),
+        ("N-S", &["N-S", "E-W", "U-D"].map(String::from)[..])
+    );
+    assert_eq!(found.about, "0999, SOMEWHERE, 2017/07/20 22:31:09 (GMT)");
+    for (wanted, second) in [("1", -0.125), ("2", 0.25), ("E-W", 0.25), ("3", 0.025), ("ud", 0.025)] {
+        assert_eq!(read(wanted, AFAD).record.accelerations[1], second, "{wanted}");
+    }
+    assert!(read("3", AFAD).record.is_vertical());
+    assert_eq!(refused("4", AFAD), ["#4: expected one of #1 N-S, #2 E-W, #3 U-D"]);
+    reads_the_same(AFAD);
+    let says = |from: &str, to: &str| refused("", AFAD.replace(from, to));
+    let count = "line 9: NUMBER OF DATA = 4: expected 3, the number of samples in the file";
+    assert_eq!(says("    1.000000     -1.500000     0.002000\n", ""), [count]);
+    assert_eq!(refused("", &AFAD[..AFAD.len() - 12])[0], "line 18: 1.000000     -1.500000: expected 3 numbers");
+    let peak = "line 11: a peak of 1.25 cm/s2: expected that of the samples, 12.5 cm/s2";
+    assert_eq!(says("(N-S) 12.500000", "(N-S) 1.250000"), [peak]);
+    let unit = "line 11: PGA VALUES ( counts: expected a unit of acceleration, gal";
+    assert_eq!(says("(gal)", "(counts)"), [unit]);
+    assert_eq!(says("0.01\n", "0\n"), ["line 10: SAMPLING INTERVAL (sec) 0: expected a number > 0"]);
+}
+
+/// A file of the network of Taiwan.
+const CWA: &str = "\
+#Earthquake Information
+#Origin Time(GMT+08): 2018/02/06-23:50:42
+
+#Station Information
+#StationCode: ABC
+#StationName: Nowhere
+#InstrumentKind: FBA
+#StartTime(GMT+08): 2018/02/06-23:50:29.000
+#RecordLength(sec): 0.08
+#SampleRate(Hz): 50
+#AmplitudeUnit:  gal. DCoffset(corr)
+#AmplitudeMAX. U:    0.600~   -0.875
+#AmplitudeMAX. N:    1.250~   -2.500
+#AmplitudeMAX. E:    3.000~   -0.500
+#DataSequence: Time U(+); N(+); E(+)
+#Data: 4F10.3 
+     0.000     0.600     1.250     0.000
+     0.020    -0.875    -2.500     3.000
+     0.040     0.100     0.000    -0.500
+     0.060     0.000     0.500     0.250
+";
+
+#[test]
+fn cwa_with_its_times() {
+    let found = read("", CWA);
+    assert_eq!(found.record.accelerations, [0.0125, -0.025, 0.0, 0.005]);
+    assert_eq!(found.record.times, [0.0, 0.02, 0.04, 0.06]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Cwa, "cm/s2"));
+    assert_eq!((found.record.component.as_str(), &found.channels[..]), ("N", &["U", "N", "E"].map(String::from)[..]));
+    // Columns are counted with that of the times.
+    for (wanted, second) in [("2", -0.00875), ("U", -0.00875), ("3", -0.025), ("4", 0.03), ("e", 0.03)] {
+        assert_eq!(read(wanted, CWA).record.accelerations[1], second, "{wanted}");
+    }
+    assert!(read("U", CWA).record.is_vertical());
+    assert_eq!(refused("1", CWA), ["#1: expected one of #2 U, #3 N, #4 E"]);
+    reads_the_same(CWA);
+    // Older headers begin with the station.
+    let (_, older) = CWA.split_once("#Station Information\n").unwrap();
+    assert_eq!(read("", older).record, found.record);
+    let says = |from: &str, to: &str| refused("", CWA.replace(from, to));
+    let count = "line 9: RecordLength times SampleRate = 4: expected 3, the number of samples in the file";
+    assert_eq!(says("     0.060     0.000     0.500     0.250\n", ""), [count]);
+    let peak = "line 13: a peak of -3.5 cm/s2: expected that of the samples, 2.5 cm/s2";
+    assert_eq!(says("-2.500\n#", "-3.500\n#"), [peak]);
+    let rate = says("SampleRate(Hz): 50", "SampleRate(Hz): 25");
+    assert_eq!(rate[0], "line 17: times 0.02 s apart: expected step = 0.04 s, or none");
+    assert_eq!(says("gal. DC", "counts DC"), ["line 11: AmplitudeUnit counts: expected a unit of acceleration, gal"]);
+}
+
+/// A file of the network of Mexico.
+const UNAM: &str = "\
+**************************************************************************************
+                       INSTITUTO DE INGENIERIA, UNAM
+**************************************************************************************
+ARCHIVO ESTANDAR DE ACELERACION:
+VERSION DEL FORMATO                    : 2.0
+
+================================================================================
+DATOS DE LA ESTACION:
+NOMBRE DE LA ESTACION                  : NINGUNA PARTE
+CLAVE DE LA ESTACION                   : ABCD
+LOCALIZACION DE LA ESTACION            : Caseta
+                                       :
+DATOS DEL ACELEROGRAFO:
+NUMERO DE CANALES                      : 3
+ORIENTACION C1-C6 (rumbo;orientacion)  : /V/N90E/N00E
+ORIENTACION C7-C12 (rumbo;orientacion) :
+VEL. DE MUESTREO, C1-C6 (muestras/s)   : /250/250/250
+INTERVALO DE MUESTREO, C1-C6 (s)       : /0.004/0.004/0.004
+INTERVALO DE MUESTREO, C7-C12 (s)      :
+FECHA DEL SISMO [GMT]                  : 2004/01/01
+DURACION DEL REGISTRO (s), C1-C6       : /0.02/0.02/0.02
+NUM. TOTAL DE MUESTRAS, C1-C6          : /5/5/5
+NUM. TOTAL DE MUESTRAS, C7-C12         : 
+ACEL. MAX.(Gal), C1-C6                 : /0.50/-1.25/2.50
+ACEL. MAX., C1-C6, EN LA MUESTRA       : /2/3/4
+UNIDADES DE LOS DATOS                  : Gal (cm/s/s)
+FACTOR DE DECIMACION                   : 1
+FORMATO DATOS (FORTRAN,10 campos/dato) : 3F10.3
+
+================================================================================
+COMENTARIOS:
+
+================================================================================
+DATOS DE ACELERACION:
+---------+---------+---------+---------+---------+---------+---------+---------+
+   CANAL-1   CANAL-2   CANAL-3
+         V      N90E      N00E
+---------+---------+---------+---------+---------+---------+---------+---------+
+    -0.100    -0.050     0.100
+     0.500    -0.500     0.750
+    -0.250    -1.250     0.125
+     0.125     0.375     2.500
+     0.250     0.500    -0.625
+";
+
+#[test]
+fn unam_by_its_channels() {
+    let found = read("", UNAM);
+    assert_eq!(found.record.accelerations, [-0.0005, -0.005, -0.0125, 0.00375, 0.005]);
+    assert_eq!(found.record.times, [0.0, 0.004, 0.008, 0.012, 0.016]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Unam, "cm/s2"));
+    assert_eq!(
+        (found.record.component.as_str(), &found.channels[..]),
+        ("N90E", &["V", "N90E", "N00E"].map(String::from)[..])
+    );
+    assert_eq!(found.about, "ABCD, NINGUNA PARTE, 2004/01/01");
+    for (wanted, last) in [("1", 0.0025), ("V", 0.0025), ("2", 0.005), ("3", -0.00625), ("n00e", -0.00625)] {
+        assert_eq!(read(wanted, UNAM).record.accelerations[4], last, "{wanted}");
+    }
+    assert!(read("1", UNAM).record.is_vertical());
+    assert_eq!(refused("4", UNAM), ["#4: expected one of #1 V, #2 N90E, #3 N00E"]);
+    reads_the_same(UNAM);
+    // Some files repeat their last row.
+    let last = "     0.250     0.500    -0.625\n";
+    assert_eq!(read("", format!("{UNAM}{last}{last}")).record, found.record);
+}
+
+#[test]
+fn unam_that_is_refused() {
+    let says = |from: &str, to: &str| refused("", UNAM.replace(from, to));
+    let count = |found: usize| {
+        vec![format!("line 22: NUM. TOTAL DE MUESTRAS = 5: expected {found}, the number of samples in the file")]
+    };
+    let last = "     0.250     0.500    -0.625\n";
+    assert_eq!(says(last, ""), count(4));
+    assert_eq!(says(last, &format!("{last}     0.250     0.125    -0.625\n")), count(6));
+    let peak = "line 24: a peak of -12.5 cm/s2: expected that of the samples, 1.25 cm/s2";
+    assert_eq!(says("/-1.25/", "/-12.5/"), [peak]);
+    let long = "line 21: a duration of 2.02 s: expected that of the samples, 0.016 s";
+    assert_eq!(says("/0.02/0.02/0.02", "/0.02/2.02/0.02"), [long]);
+    let unit = "line 26: UNIDADES DE LOS DATOS cuentas: expected a unit of acceleration, Gal";
+    assert_eq!(says("Gal (cm/s/s)", "cuentas"), [unit]);
+    let cut = &UNAM[..UNAM.find("DATOS DE ACELERACION:").unwrap()];
+    assert_eq!(refused("", cut), ["UNAM: no DATOS DE ACELERACION: expected one for each channel"]);
+    let none = "UNAM: no ORIENTACION: expected the channels behind it, such as /V/N90E/N00E";
+    assert_eq!(says("/V/N90E/N00E", ""), [none]);
+}
+
 /// Formats that are known and not read are told by their names.
 #[test]
 fn what_is_told_apart_and_refused() {
@@ -507,6 +698,9 @@ fn huge_counts_are_only_compared() {
         (FILM.to_owned(), "      7 "),
         (BHRC.to_owned(), "     12 "),
         (UNCORRECTED.to_owned(), "    10 Acc"),
+        (AFAD.to_owned(), ": 4\n"),
+        (CWA.to_owned(), " 0.08"),
+        (UNAM.to_owned(), "/5/5/5"),
     ] {
         let huge = count.replace("/5/5/5", "/5/@/5").replace(|c: char| c.is_ascii_digit(), "@");
         let huge = text.replacen(count, &huge.replacen('@', HUGE, 1).replace('@', ""), 1);
