@@ -24,6 +24,8 @@ pub enum Format {
     Smc,
     /// GeoNet of New Zealand, V1A and V2A.
     Geonet,
+    /// CSMNC of China.
+    Csmnc,
     /// AFAD of Turkey, in three columns.
     Afad,
     /// CWA of Taiwan.
@@ -46,6 +48,7 @@ impl fmt::Display for Format {
             Format::Volume1 => "volume 1",
             Format::Smc => "USGS SMC",
             Format::Geonet => "GeoNet V1A, V2A",
+            Format::Csmnc => "CSMNC",
             Format::Afad => "AFAD",
             Format::Cwa => "CWA",
             Format::Unam => "UNAM",

@@ -36,6 +36,7 @@ mod afad;
 mod at2;
 mod binary;
 mod components;
+mod csmnc;
 mod csv;
 mod cwa;
 mod esm;

@@ -5,7 +5,7 @@ use super::components::{self, Component};
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{afad, at2, binary, csv, cwa, esm, geonet, knet, others, smc, table, unam, volume1, volume2};
+use super::{afad, at2, binary, csmnc, csv, cwa, esm, geonet, knet, others, smc, table, unam, volume1, volume2};
 use crate::figures::plain;
 
 impl Accelerogram {
@@ -80,6 +80,7 @@ fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelero
         () if knet::is_it(text) => one(knet::parse(text)),
         () if esm::is_it(text) => one(esm::parse(text)),
         () if volume1::is_it(text) => volume1::parse(text, wanted),
+        () if csmnc::is_it(text) => one(csmnc::parse(text)),
         () if cwa::is_it(text) => cwa::parse(text, wanted),
         () if afad::is_it(text) => afad::parse(text, wanted),
         () if unam::is_it(text) => unam::parse(text, wanted),

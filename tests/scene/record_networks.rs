@@ -486,6 +486,53 @@ fn volume_1_of_csmip() {
     assert_eq!((read("", &older).record, read("", older).format), (read("", UNCORRECTED).record, Format::Volume1));
 }
 
+/// A file of the network of China.
+const CSMNC: &str = "\
+065ABC120103153901
+0120103153957 2012-01-03 15:39:57 BTM
+SOMEWHERE EARTHQUAKE, SOMEWHERE,CHN
+EPICENTER  39.939N 77.339E DEPTH 9 KM
+MAGNITUDE  4.0(Ms)
+STATION: 65ABC 39.700N 77.599E
+SITE CONDITION: SOIL
+INSTRUMENT TYPE: ETNA/ES-T
+OBSERVING POINT: GROUND
+COMP. EW
+UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC
+NO. OF POINTS:  10  EQUALLY SPACED INTERVALS OF:  0.005  SEC
+PEAK VALUE:    -17.5   AT   0.01 SEC    DURATION:  0 SEC
+PRE-EVENT TIME:  20  SEC  RECORDER TIME:  2012-01-3 15:39:44.000 BTM
+CSMNC
+
+-2.500000E-3 -1.250000E-2 -1.750000E+1  1.500000E+1  2.000000E+0  3.000000E+0 -4.000000E+0  5.000000E-5 
+ 6.000000E+0 -7.000000E+0 
+";
+
+#[test]
+fn csmnc() {
+    let found = read("", CSMNC);
+    let expected = [-0.000025, -0.000125, -0.175, 0.15, 0.02, 0.03, -0.04, 5e-7, 0.06, -0.07];
+    assert_eq!(found.record.accelerations, expected);
+    assert_eq!(found.record.times, [0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.045]);
+    assert_eq!((found.format, found.unit.to_string().as_str()), (Format::Csmnc, "cm/s2"));
+    assert_eq!((found.record.component.as_str(), found.channels.len()), ("EW", 0));
+    assert_eq!(found.about, "65ABC 39.700N 77.599E, 39.939N 77.339E DEPTH 9 KM, EW");
+    assert!(read("", CSMNC.replace("COMP. EW", "COMP. UD")).record.is_vertical());
+    reads_the_same(CSMNC);
+    let says = |from: &str, to: &str| refused("", CSMNC.replace(from, to));
+    let count = "line 12: NO. OF POINTS = 10: expected 8, the number of samples in the file";
+    assert_eq!(says(" 6.000000E+0 -7.000000E+0 \n", ""), [count]);
+    let peak = "line 13: a peak of -1.75 cm/s2: expected that of the samples, 17.5 cm/s2";
+    assert_eq!(says("-17.5 ", "-1.75 "), [peak]);
+    let long = "line 13: a duration of 10 s: expected that of the samples, 0.045 s";
+    assert_eq!(says("DURATION:  0 SEC", "DURATION:  10 SEC"), [long]);
+    let unit = "line 11: UNIT: CM/SEC: expected a unit of acceleration, CM/SEC/SEC";
+    assert_eq!(says("CM/SEC/SEC", "CM/SEC"), [unit]);
+    assert_eq!(says("2.000000E+0", "2.0000o0E+0"), ["line 17: 2.0000o0E+0: expected a number"]);
+    let interval = "line 12: EQUALLY SPACED INTERVALS OF 0.000: expected a number > 0";
+    assert_eq!(says("OF:  0.005", "OF:  0.000"), [interval]);
+}
+
 /// A file of the network of Turkey.
 const AFAD: &str = "\
 STRONG GROUND MOTION RECORDS OF TURKIYE
@@ -698,6 +745,7 @@ fn huge_counts_are_only_compared() {
         (FILM.to_owned(), "      7 "),
         (BHRC.to_owned(), "     12 "),
         (UNCORRECTED.to_owned(), "    10 Acc"),
+        (CSMNC.to_owned(), "  10 "),
         (AFAD.to_owned(), ": 4\n"),
         (CWA.to_owned(), " 0.08"),
         (UNAM.to_owned(), "/5/5/5"),
