@@ -46,14 +46,16 @@ pub(super) fn choose(components: &[Component], wanted: Option<&Column>) -> Resul
     named(components, wanted).ok_or_else(|| RecordError::new(none_such(components, wanted)))
 }
 
-/// The place of the one with that number, or with that name: all of it, else its beginning.
+/// The place of the one with that number, or with that name: all of it, what stands behind its colon, else its beginning.
 pub(super) fn named(components: &[Component], wanted: &Column) -> Option<usize> {
     match wanted {
         Column::Number(number) => components.iter().position(|component| component.number == *number),
         Column::Name(name) => {
             let name = plain(name);
             let whole = components.iter().position(|component| plain(&component.name) == name);
-            whole.or_else(|| {
+            let behind = |name: &str| name.split_once(':').map(|(_, behind)| plain(behind));
+            let direction = components.iter().position(|component| behind(&component.name).as_ref() == Some(&name));
+            whole.or(direction).or_else(|| {
                 let mut begin =
                     components.iter().enumerate().filter(|(_, found)| plain(&found.name).starts_with(&name));
                 let first = begin.next().filter(|_| !name.is_empty())?;

@@ -18,6 +18,20 @@ pub enum Format {
     Csmip,
     /// COSMOS, volume 2.
     Cosmos,
+    /// CSMIP, USC and RENADIC, BHRC: volume 1, uncorrected.
+    Volume1,
+    /// USGS, SMC.
+    Smc,
+    /// GeoNet of New Zealand, V1A and V2A.
+    Geonet,
+    /// CSMNC of China.
+    Csmnc,
+    /// AFAD of Turkey, in three columns.
+    Afad,
+    /// CWA of Taiwan.
+    Cwa,
+    /// UNAM of Mexico.
+    Unam,
     /// Columns of text.
     Columns,
 }
@@ -31,6 +45,13 @@ impl fmt::Display for Format {
             Format::Esm => "ESM, ITACA",
             Format::Csmip => "CSMIP volume 2",
             Format::Cosmos => "COSMOS volume 2",
+            Format::Volume1 => "volume 1",
+            Format::Smc => "USGS SMC",
+            Format::Geonet => "GeoNet V1A, V2A",
+            Format::Csmnc => "CSMNC",
+            Format::Afad => "AFAD",
+            Format::Cwa => "CWA",
+            Format::Unam => "UNAM",
             Format::Columns => "columns of text",
         })
     }

@@ -33,23 +33,32 @@
 //! ```
 
 mod accelerogram;
+mod afad;
 mod at2;
 mod binary;
 mod components;
+mod csmnc;
 mod csv;
+mod cwa;
 mod esm;
 mod file;
 mod format;
+mod geonet;
+mod header;
 mod knet;
 mod known;
 mod mean;
 mod numbers;
 mod options;
+mod others;
 mod parse;
 mod reading;
 mod said;
+mod smc;
 mod table;
+mod unam;
 mod unit;
+mod volume1;
 mod volume2;
 
 pub use accelerogram::{Accelerogram, Record, RecordError, STANDARD_GRAVITY};

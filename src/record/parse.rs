@@ -5,7 +5,7 @@ use super::components::{self, Component};
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{at2, binary, csv, esm, knet, table, volume2};
+use super::{afad, at2, binary, csmnc, csv, cwa, esm, geonet, knet, others, smc, table, unam, volume1, volume2};
 use crate::figures::plain;
 
 impl Accelerogram {
@@ -67,13 +67,23 @@ impl Accelerogram {
 
 /// What a file in one of the formats holds.
 fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelerogram, RecordError> {
+    if let Some(told) = others::told(text) {
+        return Err(RecordError::new(told));
+    }
     let wanted = options.column.as_ref();
     let one = |found: Result<Accelerogram, RecordError>| found.and_then(|found| found.of_column(options, 1));
     match () {
         () if csv::is_it(text) => csv::parse(text).and_then(|found| found.of_column(options, csv::COLUMN)),
+        () if smc::is_it(text) => one(smc::parse(text)),
+        () if geonet::is_it(text) => geonet::parse(text, wanted),
         () if volume2::is_it(text) => volume2::parse(text, wanted),
         () if knet::is_it(text) => one(knet::parse(text)),
         () if esm::is_it(text) => one(esm::parse(text)),
+        () if volume1::is_it(text) => volume1::parse(text, wanted),
+        () if csmnc::is_it(text) => one(csmnc::parse(text)),
+        () if cwa::is_it(text) => cwa::parse(text, wanted),
+        () if afad::is_it(text) => afad::parse(text, wanted),
+        () if unam::is_it(text) => unam::parse(text, wanted),
         () if at2::is_it(text) => one(at2::parse(text)),
         () => match table::parse(text, options) {
             Some(Ok(found)) => Ok(found),
@@ -92,9 +102,9 @@ fn is_at2(name: &str) -> bool {
 /// What was looked for, and how the file begins.
 fn unknown(text: &str) -> RecordError {
     const SHOWN: usize = 3;
-    let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), Origin Time (K-NET, KiK-net), \
-                      SAMPLING_INTERVAL_S: (ESM, ITACA), points of accel data (CSMIP), acceleration pts (COSMOS), two columns of \
-                      numbers, or one with step = ... and unit = ...";
+    let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), the first lines of a file of K-NET, KiK-net, ESM, ITACA, \
+                      CSMIP, COSMOS, USGS SMC, USC, GeoNet, RENADIC, BHRC, CSMNC, AFAD, CWA or UNAM, two columns of numbers, or one with \
+                      step = ... and unit = ...";
     let mut problems = vec![format!("no known format: expected one of {looked_for}")];
     let lines = numbered(text).filter(|(_, line)| !line.trim().is_empty()).take(SHOWN);
     problems.extend(lines.map(|(number, line)| on_line(number, excerpt(line))));

@@ -4,7 +4,7 @@ use super::accelerogram::{Accelerogram, Record, RecordError};
 use super::components::Component;
 use super::format::Format;
 use super::unit::Unit;
-use crate::figures::plain;
+use crate::figures::{plain, six_decimals};
 use std::borrow::Cow;
 
 /// A file of the wrong kind has a problem in every line: nobody reads more than these.
@@ -84,6 +84,29 @@ impl Reading {
         }
     }
 
+    /// Adds pairs of time and acceleration, as many as a line holds.
+    pub(super) fn add_pairs(
+        &mut self,
+        line: usize,
+        values: Vec<Result<f64, String>>,
+        sample: impl Fn(Option<f64>, f64, f64) -> (f64, f64),
+    ) {
+        let place = |problem: String| on_line(line, problem);
+        for pair in values.chunks(2) {
+            match pair {
+                [Ok(time), Ok(acceleration)] => {
+                    let before = self.record.times.last().copied();
+                    let (time, acceleration) = sample(before, *time, *acceleration);
+                    self.add(time, acceleration, place);
+                }
+                [Err(field), ..] | [_, Err(field)] => {
+                    self.skip(|| place(format!("{}: expected a number", excerpt(field))));
+                }
+                _ => self.skip(|| place("a time without an acceleration: expected pairs".to_owned())),
+            }
+        }
+    }
+
     /// Notes a sample that is none.
     pub(super) fn skip(&mut self, problem: impl FnOnce() -> String) {
         self.samples += 1;
@@ -123,11 +146,35 @@ impl Reading {
         self.problems.is_empty()
     }
 
+    /// Takes away what stands behind so many samples, where it is the last of them again and again.
+    pub(super) fn drop_repeated(&mut self, samples: usize) {
+        let found = &self.record.accelerations;
+        let is_repeated = |last: &f64| found[samples..].iter().all(|value| value == last);
+        if self.is_sound() && samples < found.len() && samples.checked_sub(1).is_some_and(|k| is_repeated(&found[k])) {
+            self.record.times.truncate(samples);
+            self.record.accelerations.truncate(samples);
+            self.samples = samples;
+        }
+    }
+
     /// Compares the samples that have been found with those that a line of the header announces.
     pub(super) fn check_count(&mut self, line: usize, announced: &str, samples: usize) {
         let found = self.samples;
         if found != samples {
             let expected = format!("{announced} = {samples}: expected {found}, the number of samples in the file");
+            self.refuse(|| on_line(line, expected));
+        }
+    }
+
+    /// Compares the duration that a line of the header announces with that of the samples: to the last one, or an interval more.
+    /// Headers write it in whole seconds as well.
+    pub(super) fn check_duration(&mut self, line: usize, said: f64) {
+        const ROUNDING: f64 = 1.0;
+        let times = &self.record.times;
+        let (Some(first), Some(last), true) = (times.first(), times.last(), self.is_sound()) else { return };
+        let found = six_decimals(last - first);
+        if (found - said).abs() > ROUNDING + found / times.len() as f64 {
+            let expected = format!("a duration of {} s: expected that of the samples, {} s", plain(said), plain(found));
             self.refuse(|| on_line(line, expected));
         }
     }
@@ -146,8 +193,11 @@ impl Reading {
         let expected = unit.in_si(said.abs());
         if self.is_sound() && said != 0.0 && (peak - expected).abs() > ALLOWED * expected + ROUNDING * unit.in_si(1.0) {
             let found = peak / unit.in_si(1.0);
-            let problem =
-                format!("a peak of {} {unit}: expected that of the samples, {} {unit}", plain(said), plain(found));
+            let problem = format!(
+                "a peak of {} {unit}: expected that of the samples, {} {unit}",
+                plain(said),
+                six_decimals(found)
+            );
             self.refuse(|| on_line(line, problem));
         }
     }
@@ -157,7 +207,8 @@ impl Reading {
         let Said { format, unit, about, components, chosen } = said;
         let mut record = self.complete()?;
         record.component = components.get(chosen).map(|one| one.name.clone()).unwrap_or_default();
-        let has_channels = components.len() > 1 || matches!(format, Format::Csmip | Format::Cosmos);
+        let of_channels = [Format::Csmip, Format::Cosmos, Format::Volume1, Format::Geonet];
+        let has_channels = components.len() > 1 || of_channels.contains(&format);
         let names = components.into_iter().map(|component| component.name);
         let channels = if has_channels { names.collect() } else { Vec::new() };
         Ok(Accelerogram { format, unit, about, channels, record })

@@ -5,6 +5,7 @@
 mod layout;
 mod names;
 mod roles;
+mod told;
 
 use super::accelerogram::{Accelerogram, RecordError};
 use super::components::Component;
@@ -15,6 +16,8 @@ use super::said::{self, SaidUnit};
 use super::unit::Unit;
 use layout::{Layout, is_comment};
 use roles::Roles;
+
+pub(super) use told::Told;
 
 /// Lines of a header that are looked at for unit, step and names: the last ones.
 const MOST_HEADER_LINES: usize = 200;

@@ -53,7 +53,7 @@ impl Unit {
         let plain = plain.replace("percent", "%").replace("pct", "%").replace("%of", "%");
         let of_length = |end: &str| match plain.strip_suffix(end)? {
             "m" => Some(Unit::Metres),
-            "cm" => Some(Unit::Centimetres),
+            "cm" | "cms" => Some(Unit::Centimetres),
             "mm" => Some(Unit::Millimetres),
             "ft" => Some(Unit::Feet),
             "in" => Some(Unit::Inches),

@@ -8,6 +8,7 @@ use super::numbers::{Columns, fortran_number};
 use super::options::Column;
 use super::reading::{Reading, Said, excerpt, numbered, on_line};
 use super::unit::Unit;
+use super::{header, volume1};
 use crate::figures::plain;
 
 /// What a file that says no format has: that of most.
@@ -18,6 +19,8 @@ const MOST_HEADER_LINES: usize = 300;
 /// s, from which the samples may have been resampled; counted from 1.
 const INTERVAL_MS: usize = 62;
 const RECORDER: usize = 34;
+/// What stands for a number that is not known, or what is rounded to it.
+const NONE: f64 = -999.0;
 
 /// Whether a text has a block of this kind.
 pub(super) fn is_it(text: &str) -> bool {
@@ -27,7 +30,7 @@ pub(super) fn is_it(text: &str) -> bool {
 /// Whether a text begins as such a file does, which may have been cut off within its headers.
 pub(super) fn has_title(text: &str) -> bool {
     let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_ascii_lowercase();
-    ["corrected accel", "corrected veloc", "corrected displ", "(format v"].iter().any(|title| first.contains(title))
+    first.starts_with("corrected accelerogram") || first.contains("(format v")
 }
 
 pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram, RecordError> {
@@ -41,7 +44,14 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
     let (Some(step), Some(unit)) = (step, unit) else { return Err(reading.stop()) };
     found.samples(text, step, unit, &mut reading);
     reading.check_count(found.line, "points of acceleration", found.block.count);
-    let format = if found.block.step.is_some() { Format::Csmip } else { Format::Cosmos };
+    if let Some(Peak { line, value, unit }) = found.peak {
+        reading.check_peak(line, value, unit);
+    }
+    let format = match found.block.spacing {
+        None => Format::Cosmos,
+        Some(_) if volume1::is_it(text) => Format::Volume1,
+        Some(_) => Format::Csmip,
+    };
     let about = found.about.clone();
     reading.accelerogram(Said { format, unit, about, components, chosen })
 }
@@ -59,13 +69,11 @@ fn choose(channels: &[Component], wanted: Option<&Column>) -> Option<usize> {
 
 fn unknown(channels: &[Component], wanted: Option<&Column>, others: usize) -> String {
     match (channels.len(), wanted) {
-        (0, _) if others > 0 => {
-            "velocity, displacement or an uncorrected accelerogram: expected a block of acceleration".to_owned()
-        }
+        (0, _) if others > 0 => "velocity or displacement: expected a block of acceleration".to_owned(),
         (0, _) => {
             let line = "\"7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)\"";
             format!(
-                "cut off within its headers or of another format: expected a block of acceleration, after a line such as {line}"
+                "CSMIP, COSMOS: cut off within its headers: expected a block of acceleration, after a line such as {line}"
             )
         }
         (count, wanted) => {
@@ -76,11 +84,20 @@ fn unknown(channels: &[Component], wanted: Option<&Column>, others: usize) -> St
     }
 }
 
+/// How far samples are apart, as the file writes it.
+#[derive(Clone, Copy)]
+enum Spacing<'t> {
+    /// s
+    Step(&'t str),
+    /// Hz
+    Rate(&'t str),
+}
+
 /// The line that stands before a block of samples.
 struct SampleBlock<'t> {
     count: usize,
-    /// s; in COSMOS files the real header has it.
-    step: Option<&'t str>,
+    /// In COSMOS files the real header has it.
+    spacing: Option<Spacing<'t>>,
     unit: &'t str,
     /// s, of the whole block, where it is said: rounded.
     length: Option<f64>,
@@ -89,7 +106,8 @@ struct SampleBlock<'t> {
 }
 
 impl<'t> SampleBlock<'t> {
-    /// `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)`, or
+    /// `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)`,
+    /// `7200 Accelerogram points at 100 pts/sec in units of g .      Format: (8f9.6)`, or
     /// `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)`.
     fn read(line: &'t str) -> Option<SampleBlock<'t>> {
         let line = line.trim();
@@ -101,17 +119,21 @@ impl<'t> SampleBlock<'t> {
         let lower = rest.to_ascii_lowercase();
         let has = |word: &str| lower.contains(word);
         let after = |word: &str| rest.get(lower.find(word)? + word.len()..);
-        let is_csmip = has("points of") && has("equally spaced at");
-        if !is_csmip && !((has("pts") || has("points")) && has("units")) {
+        let first = |rest: &'t str| rest.split_whitespace().next();
+        let step = after("equally spaced at").filter(|_| has("points of")).and_then(first).map(Spacing::Step);
+        let rate = after("accelerogram points at").filter(|_| has("pts/sec")).and_then(first).map(Spacing::Rate);
+        let spacing = step.or(rate);
+        if spacing.is_none() && !((has("pts") || has("points")) && has("units")) {
             return None;
         }
-        let unit = after("units").or_else(|| after(" in ")).unwrap_or_default();
+        let unit = after("units of").or_else(|| after("units")).or_else(|| after(" in ")).unwrap_or_default();
+        let unit = unit.trim_start_matches(|c: char| " :=".contains(c)).split("  ").next()?;
         Some(SampleBlock {
             count: count.parse().ok()?,
-            step: after("equally spaced at").filter(|_| is_csmip).and_then(|rest| rest.split_whitespace().next()),
-            unit: unit.trim_start_matches(|c: char| " :=".contains(c)).split(['(', ')', ',', ';']).next()?.trim(),
+            spacing,
+            unit: unit.split(['(', ')', ',', ';']).next()?.trim(),
             length: after("approx").and_then(|rest| rest.split_whitespace().next()?.parse().ok()),
-            is_acceleration: has("acc") && !has("accelerogram"),
+            is_acceleration: has("acc"),
             columns: Columns::find(after("format").or_else(|| after(" in ")).unwrap_or(rest)),
         })
     }
@@ -128,6 +150,31 @@ struct Channel<'t> {
     line: usize,
     /// The real numbers of a COSMOS header.
     reals: Vec<f64>,
+    peak: Option<Peak>,
+}
+
+/// The largest sample as a line of the header says it.
+#[derive(Clone, Copy)]
+struct Peak {
+    line: usize,
+    value: f64,
+    unit: Unit,
+}
+
+impl Peak {
+    /// `Peak acceleration =  -388.166    cm/sec/sec  at`, `Max =    34.163 cm/s^2   at`, in g in files of the volume 1; not that of
+    /// the record before its correction, `Uncor max`. A number that stands for none is -999.
+    fn find(header: &[(usize, &str)]) -> Option<Peak> {
+        header.iter().rev().take(MOST_HEADER_LINES).find_map(|(number, line)| {
+            let key = ["peak acceleration", " max  =", " max ="]
+                .into_iter()
+                .find(|key| header::after(line, key).is_some())?;
+            let is_of_record = !line.to_ascii_lowercase().contains("uncor max");
+            let mut words = header::after(line, key)?.split_whitespace();
+            let (value, unit) = (fortran_number(words.next()?)?, Unit::read(words.next()?)?);
+            (is_of_record && (value - NONE).abs() >= 1.0).then_some(Peak { line: *number, value, unit })
+        })
+    }
 }
 
 /// What a file holds.
@@ -167,8 +214,7 @@ fn is_end(line: &str) -> bool {
 
 impl<'t> Channel<'t> {
     fn new(header: &[(usize, &str)], block: SampleBlock<'t>, line: usize) -> Channel<'t> {
-        let label = header.iter().find_map(|(_, line)| channel_label(line)).unwrap_or_default();
-        let digits = label.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit);
+        let label = header.iter().find_map(|(_, line)| header::channel(line)).unwrap_or_default();
         let station = header.iter().find(|(_, line)| {
             let line = line.trim_start().to_ascii_lowercase();
             line.starts_with("station ") || line.starts_with("statn ")
@@ -176,12 +222,13 @@ impl<'t> Channel<'t> {
         let station = station.map_or_else(String::new, |(_, line)| excerpt(line));
         let about = [station, label.clone()].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
         Channel {
-            number: digits.collect::<String>().parse().ok(),
+            number: header::channel_number(&label),
             about: about.join(", "),
             label,
             block,
             line,
             reals: real_header(header),
+            peak: Peak::find(header),
         }
     }
 
@@ -192,8 +239,14 @@ impl<'t> Channel<'t> {
     /// s from sample to sample.
     fn step(&self, reading: &mut Reading) -> Option<f64> {
         let positive = |step: &f64| *step > 0.0 && step.is_finite();
-        let (step, place) = match self.block.step {
-            Some(text) => (fortran_number(text).filter(positive), format!("spaced at {}", excerpt(text))),
+        let (step, place) = match self.block.spacing {
+            Some(Spacing::Step(text)) => {
+                (fortran_number(text).filter(positive), format!("spaced at {}", excerpt(text)))
+            }
+            Some(Spacing::Rate(text)) => {
+                let step = fortran_number(text).map(|rate| 1.0 / rate).filter(positive);
+                (step, format!("points at {}", excerpt(text)))
+            }
             None => {
                 let real = |number: usize| self.reals.get(number - 1).copied().filter(positive);
                 let step = real(INTERVAL_MS).map(|interval| interval / 1e3).or_else(|| real(RECORDER));
@@ -215,6 +268,9 @@ impl<'t> Channel<'t> {
     fn unit(&self, reading: &mut Reading) -> Option<Unit> {
         let text = self.block.unit;
         let expected = "a unit of acceleration, cm/sec2 or g";
+        if let Some(Peak { unit, .. }) = self.peak.filter(|_| text.is_empty()) {
+            return Some(unit);
+        }
         reading.value(Some((self.line, text)), ("in", String::new), expected, Unit::read).map(|(_, unit)| unit)
     }
 
@@ -236,16 +292,6 @@ impl<'t> Channel<'t> {
             reading.add_all(number, values, |k, value| (k * step, unit.in_si(value)), "a number");
         }
     }
-}
-
-/// `Chan  1: 180 Deg`, of a line with more.
-fn channel_label(line: &str) -> Option<String> {
-    let start = line.to_ascii_lowercase().find("chan")?;
-    let label = line.get(start..)?;
-    let (name, rest) = label.split_once(':')?;
-    let is_number = name.contains(|c: char| c.is_ascii_digit() || c == '?') && name.len() < 16;
-    let rest = rest.trim().split("  ").next().unwrap_or_default().split('(').next().unwrap_or_default();
-    is_number.then(|| excerpt(&format!("{name}: {}", rest.trim())))
 }
 
 /// The numbers below `100 Real-header values follow on  17 lines, Format= (6F13.6)`.

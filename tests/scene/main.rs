@@ -5,6 +5,7 @@ mod files;
 mod forms;
 mod record;
 mod record_formats;
+mod record_networks;
 mod record_offsets;
 mod record_tables;
 mod refusals;

@@ -29,7 +29,7 @@ Sampling Freq(Hz) 100Hz
 Duration Time(s)  0.10
 Dir.              N-S
 Scale Factor      3920(gal)/6182761
-Max. Acc. (gal)   2699.893
+Max. Acc. (gal)   56984.183
 Last Correction   2011/03/11 14:46:21
 Memo.             
      8009     9006    -7998 -1234567       12        0        0        0
@@ -81,14 +81,15 @@ fn knet_as_it_is_found() {
     }
     assert_eq!(read(None, latin).record, plain.record);
     let kik = KNET.replace("N-S", "4").replace("3920(gal)/6182761", "2000(gal)/8388608").replace("100Hz", "200Hz");
-    let kik = read(None, kik.replace("0.10", "0.05"));
+    // Of other numbers the peak is another one: here the header says none.
+    let kik = read(None, kik.replace("0.10", "0.05").replace("56984.183", ""));
     assert_eq!(kik.record.accelerations[8], 2.384185791015625e-06);
     assert_eq!(kik.record.times[9], 0.045);
     // Ten to the second: 3 * 0.1 would be another number.
     assert_eq!(read(None, KNET.replace("100Hz", "10Hz").replace("0.10", "1")).record.times[3], 0.3);
     // Counts that fill their nine columns.
     let touching = KNET.replace("        1-99999999", "100000000-99999999");
-    let touching = touching.replace("     8009     9006", "100000000100000000");
+    let touching = touching.replace("     8009     9006", "100000000100000000").replace("56984.183", "");
     assert_eq!(read(None, touching).record.accelerations[9], -634.0209431999716);
 }
 
@@ -115,6 +116,8 @@ fn knet_that_is_refused() {
         "K-NET: no line Scale Factor: expected it in the header",
     ];
     assert_eq!(refused(None, both), expected);
+    let peak = "line 15: a peak of 5698.4 cm/s2: expected that of the samples, 56984.183275 cm/s2";
+    assert_eq!(says("56984.183", "5698.4"), [peak]);
     assert_eq!(refused(Some(2), KNET), ["#2: expected a file with channels, this is K-NET, KiK-net"]);
     assert_eq!(read(Some(1), KNET), read(None, KNET));
 }
@@ -166,7 +169,9 @@ fn esm_and_itaca() {
     }
     let latin: Vec<u8> = ESM.replace("CENTRAL_ITALY", "Forl\u{ec}").chars().map(|c| u8::try_from(c).unwrap()).collect();
     assert_eq!(read(None, latin).record, found.record);
-    assert_eq!(read(None, ESM.replace("cm/s^2", "m/s^2")).record.accelerations[1], -850.802);
+    // The peak is in cm/s2 whatever the samples are in.
+    let in_m = ESM.replace("cm/s^2", "m/s^2").replace("PGA_CM/S^2: -850.802", "PGA_CM/S^2: -85080.2");
+    assert_eq!(read(None, in_m).record.accelerations[1], -850.802);
 }
 
 #[test]
@@ -179,6 +184,8 @@ fn esm_that_is_refused() {
     let unit = "expected a unit of acceleration, cm/s^2";
     assert_eq!(says("cm/s^2", "cm/s"), [format!("line 12: UNITS: cm/s: {unit}")]);
     assert_eq!(says("cm/s^2", ""), [format!("line 12: UNITS: : {unit}")]);
+    let peak = "line 14: a peak of -830 cm/s2: expected that of the samples, 850.802 cm/s2";
+    assert_eq!(says("CM/S^2: -850.802", "CM/S^2: -830"), [peak]);
     let kind = "line 16: DATA_TYPE: DISPLACEMENT: expected ACCELERATION";
     assert_eq!(says("ACCELERATION", "DISPLACEMENT"), [kind]);
     let spectrum = "line 16: DATA_TYPE: ACCELERATION RESPONSE SPECTRUM: expected ACCELERATION";
@@ -212,7 +219,7 @@ RMS accel of (uncor) record  =        .   Chn. metadata effective date: 11/20/19
 Accelerogram bandpass filtered with 3 dB pts at  0.07 and 40.00 cyc/sec         
     10 points of instrument- and baseline-corrected accel, veloc and displ data 
 At equally-spaced intervals of   0.010  sec.                                    
-Peak acceleration =  -388.166    cm/sec/sec  at     .020   sec.                 
+Peak acceleration =112345.678    cm/sec/sec  at     .060   sec.                 
 Peak   velocity   =    34.735      cm/sec    at     .010   sec.                 
 Peak displacement =     8.228        cm      at     .020   sec.                 
 Initial velocity  =    -0.000   cm/sec;   Initial displacement =    0.002   cm  
@@ -272,7 +279,8 @@ fn csmip_as_it_is_found() {
     let plain = read(None, &file).record;
     let forms = [
         file.replace('\n', "\r\n"),
-        file.replace("Deg", "Deg \u{b0}"),
+        // Letters of other encodings.
+        file.replace("Fortuna", "Fort\u{fc}na"),
         // All in capitals, as files of the seventies are.
         file.to_uppercase(),
         // Older ones name the unit in brackets, and without a format; USC's have shorter names.
@@ -290,13 +298,17 @@ fn csmip_as_it_is_found() {
         file.replace("     1.500", " 1.500D+00").replace("     0.250", " .2500E+00"),
     ];
     for form in forms {
-        assert_eq!(read(None, &form).record, plain, "{form}");
+        let found = read(None, &form).record;
+        assert_eq!((found.times, found.accelerations), (plain.times.clone(), plain.accelerations.clone()), "{form}");
     }
-    let in_g = read(None, file.replace("cm/sec2.", "g.      "));
+    let in_g = read(None, file.replace("cm/sec2.", "g.      ").replace("cm/sec/sec", "g"));
     assert_eq!(in_g.record.accelerations[0], 1.5 * 9.80665);
     let ten = file.replace("(8f10.3)", "(10f8.3)");
-    let ten = ten.split("     1.500").next().unwrap().to_owned() + &"-999.125".repeat(10) + "\n";
-    assert_eq!(read(None, ten).record.accelerations, [-9.99125; 10]);
+    let ten = ten.split("     1.500").next().unwrap().to_owned() + &"-987.125".repeat(10) + "\n";
+    assert_eq!(read(None, ten.replace("112345.678", "-987.125")).record.accelerations, [-9.87125; 10]);
+    // USC's do not always say the unit of the samples, but that of their peak.
+    let silent = file.replace("sec, in cm/sec2. (8f10.3)", "SEC.").replace("cm/sec/sec", "CMS/SEC/SEC");
+    assert_eq!(read(None, silent).record, plain);
 }
 
 #[test]
@@ -310,16 +322,21 @@ fn csmip_that_is_refused() {
     assert_eq!(says("    10", "     9"), count("9", "10"));
     assert_eq!(says("-12345.678", "**********"), ["line 47: **********: expected a number"]);
     let unit = "expected a unit of acceleration, cm/sec2 or g";
-    assert_eq!(says("cm/sec2. ", "g/10.    "), [format!("line 46: in g/10.: {unit}")]);
+    assert_eq!(says("cm/sec2. ", "cm/sec.  "), [format!("line 46: in cm/sec.: {unit}")]);
+    let silent = csmip(1, "Up", &ACCELERATION.replace("in cm/sec2. ", "")).replace("cm/sec/sec", "cm/sec");
+    assert_eq!(refused(None, silent), [format!("line 46: in : {unit}")]);
+    let peak = |peak: &str| [format!("line 18: a peak of {peak}: expected that of the samples, 112345.678 cm/s2")];
+    let low = csmip(1, "Up", ACCELERATION).replace("112345.678    cm/sec/sec", " 11234.568    cm/sec/sec");
+    assert_eq!(refused(None, low), peak("11234.568 cm/s2"));
+    let in_g = csmip(1, "Up", ACCELERATION).replace("112345.678    cm/sec/sec", "112345.678    g         ");
+    assert!(refused(None, in_g)[0].starts_with("line 18: a peak of 112345.678 g: expected that of the samples, 114"));
     assert_eq!(says(" .010 sec", "0.000 sec"), ["line 46: spaced at 0.000: expected the s from sample to sample"]);
-    let velocity = "velocity, displacement or an uncorrected accelerogram: expected a block of acceleration";
+    let velocity = "velocity or displacement: expected a block of acceleration";
     assert_eq!(refused(None, csmip(1, "Up", VELOCITY)), [velocity]);
-    let uncorrected = "    10 Accelerogram points at 100 pts/sec in units of g .      Format: (8f9.6)\n  .000001\n";
-    assert_eq!(refused(None, csmip(1, "Up", uncorrected)), [velocity]);
     let cut = csmip_file();
     let said = refused(None, &cut[..1400]);
     assert!(
-        said[0].starts_with("cut off within its headers or of another format: expected a block of acceleration"),
+        said[0].starts_with("CSMIP, COSMOS: cut off within its headers: expected a block of acceleration"),
         "{said:?}"
     );
     // Cut off within the third channel, the others can be read.
@@ -341,7 +358,7 @@ Recorder: K2      s/n:     (  3 Chns of  3 at Sta) Sensor:Episensor s/n
 Rcrd start time:08/24/2014, 10:20:47.695 UTC (Q=0) RcrdId:NP.1743.HNE.
 Sta Chan   1: 90 deg (Rcrdr Chan  1) Location:
 Raw record length =  63.620 sec, Uncor max =    0.000        at    0.000 sec
-Processed:                               Max =    34.163 cm/s^2   at  10.045 sec
+Processed:                               Max =  -987.000 cm/s^2   at   0.005 sec
 Record filtered below  0.01 Hz (periods over  68.3 secs)  and above 75.0 Hz
 Values used when parameter or data value is unknown/unspecified:   -999 -999.0
 ";
@@ -365,14 +382,14 @@ Values used when parameter or data value is unknown/unspecified:   -999 -999.0
 }
 
 const COSMOS_DATA: &str = "      10 acceleration pts, approx   0 secs, units=cm/sec2(04),Format=(8f10.5)
-   0.03630-999.00000-888.00000   0.03619   1.00000   2.00000   3.00000   4.00000
+   0.03630-987.00000-888.00000   0.03619   1.00000   2.00000   3.00000   4.00000
    5.00000-100.00000
 ";
 
 #[test]
 fn cosmos_volume_2() {
     let found = read(None, cosmos(1, "acceleration", COSMOS_DATA));
-    let expected = [0.000363, -9.99, -8.88, 0.0003619, 0.01, 0.02, 0.03, 0.04, 0.05, -1.0];
+    let expected = [0.000363, -9.87, -8.88, 0.0003619, 0.01, 0.02, 0.03, 0.04, 0.05, -1.0];
     assert_eq!(found.record.accelerations, expected);
     assert_eq!(found.record.times, (0..10).map(|k| f64::from(k) * 0.005).collect::<Vec<_>>());
     assert_eq!((found.format, found.channels), (Format::Cosmos, vec!["Chan   1: 90 deg".to_owned()]));
@@ -388,9 +405,11 @@ fn cosmos_volume_2() {
     let single =
         COSMOS_DATA.lines().next().unwrap().replace("(8f10.5)", "(1E15.6)").replace("cm/sec2(04)", "cm/s^2 (4)");
     let single = single + "\n" + &"  -2.500000E-05\n".repeat(10);
-    assert_eq!(read(None, cosmos(1, "acceleration", &single)).record.accelerations, [-2.5e-7; 10]);
+    let single = cosmos(1, "acceleration", &single).replace("-987.000 cm/s^2", "-999.000 cm/s^2");
+    assert_eq!(read(None, single).record.accelerations, [-2.5e-7; 10], "-999 is no peak");
     let in_g = COSMOS_DATA.replace("cm/sec2(04)", "g(02)");
-    assert_eq!(read(None, cosmos(1, "acceleration", &in_g)).record.accelerations[9], -100.0 * 9.80665);
+    let in_g = cosmos(1, "acceleration", &in_g).replace("-987.000 cm/s^2", "-987.000 g     ");
+    assert_eq!(read(None, in_g).record.accelerations[9], -100.0 * 9.80665);
     let velocity = COSMOS_DATA.replace("acceleration", "velocity").replace("cm/sec2(04)", "cm/sec(05)");
     let file = cosmos(1, "acceleration", COSMOS_DATA)
         + &cosmos(1, "velocity", &velocity)
@@ -412,7 +431,9 @@ fn cosmos_that_is_refused() {
     assert_eq!(says("   5.00000-100.00000\n", ""), [count]);
     let velocity = COSMOS_DATA.replace("acceleration", "velocity").replace("cm/sec2(04)", "cm/sec(05)");
     let said = refused(None, cosmos(1, "velocity", &velocity));
-    assert_eq!(said, ["velocity, displacement or an uncorrected accelerogram: expected a block of acceleration"]);
+    assert_eq!(said, ["velocity or displacement: expected a block of acceleration"]);
+    let peak = "line 11: a peak of -9.87 cm/s2: expected that of the samples, 987 cm/s2";
+    assert_eq!(says("Max =  -987.000", "Max =    -9.870"), [peak]);
 }
 
 #[test]
