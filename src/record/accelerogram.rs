@@ -34,19 +34,6 @@ pub struct Accelerogram {
     pub record: Record,
 }
 
-/// A record file that cannot be read: everything that is wrong with it; displayed with one problem a line.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}", problems.join("\n"))]
-#[non_exhaustive]
-pub struct RecordError {
-    /// What is wrong, with line and value, in the order of the file: the first [`super::MOST_PROBLEMS`], then how many more
-    /// there are.
-    pub problems: Vec<String>,
-}
-
-/// m/s2 in one g.
-pub const STANDARD_GRAVITY: f64 = 9.80665;
-
 impl Record {
     /// Samples of a component without a name.
     pub fn new(times: Vec<f64>, accelerations: Vec<f64>) -> Record {
@@ -61,11 +48,5 @@ impl Record {
     /// m/s2, largest magnitude.
     pub fn peak(&self) -> f64 {
         self.accelerations.iter().fold(0.0, |peak, a| peak.max(a.abs()))
-    }
-}
-
-impl RecordError {
-    pub(super) fn new(problem: impl Into<String>) -> RecordError {
-        RecordError { problems: vec![problem.into()] }
     }
 }

@@ -1,7 +1,8 @@
 //! Records of the Turkish network of AFAD [Afad] in text: a header of lines `KEY : VALUE`, then a row of three components a sample.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::Component;
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{Header, after};
 use super::numbers::fortran_number;

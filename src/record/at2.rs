@@ -1,6 +1,7 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::numbers::{fortran_number, numbers_apart};
 use super::reading::{Reading, Said, excerpt, on_line};

@@ -1,6 +1,6 @@
 //! Several components in one file, and which one is wanted.
 
-use super::accelerogram::RecordError;
+use super::error::RecordError;
 use super::options::Column;
 
 /// Names of components that a message lists.

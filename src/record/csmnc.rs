@@ -1,6 +1,7 @@
 //! Records of the China Strong Motion Network Centre [Csmnc]: a header in words, then the samples in cm/s2.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{Header, after};
 use super::numbers::numbers_apart;

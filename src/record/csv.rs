@@ -1,6 +1,7 @@
 //! Records as CSV: `time_s,accel_m_s2`.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::reading::{Reading, Said, excerpt, on_line};
 use super::unit::Unit;

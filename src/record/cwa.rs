@@ -1,7 +1,8 @@
 //! Records of the Central Weather Administration of Taiwan [Cwa]: a header of comments, then rows of time and three components.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::Component;
+use super::error::RecordError;
 use super::format::Format;
 use super::header::Header;
 use super::numbers::fortran_number;

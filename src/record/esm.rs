@@ -1,6 +1,7 @@
 //! Records of ESM and ITACA in ASCII [Luzi2016]: lines `KEY: VALUE`, then the samples.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::numbers::{numbers_apart, numbers_of};
 use super::reading::{Reading, Said, excerpt, numbered, on_line};

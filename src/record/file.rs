@@ -1,6 +1,7 @@
 //! Record files as a scene names them: a path, and behind `#` the channel or column.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::options::{Column, RecordOptions};
 use std::path::{Path, PathBuf};
 use std::{fs, io};

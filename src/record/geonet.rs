@@ -1,8 +1,9 @@
 //! Records of GeoNet, New Zealand, in the files V1A and V2A [Geonet]: components one after the other, each with a header of text and of
 //! numbers, then the accelerations in mm/s2 and, where they have been worked out, velocities and displacements.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::{self, Component};
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{self, Header};
 use super::numbers::{Columns, fortran_number};

@@ -1,6 +1,7 @@
 //! Records of K-NET and KiK-net in ASCII [Nied2006]: counts, the scale factor of the header makes them gal.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::numbers::Columns;
 use super::reading::{Reading, Said, excerpt, numbered};

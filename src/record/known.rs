@@ -1,7 +1,8 @@
 //! Records that have been read lately. Who runs a record many times, for other gaps or scales, names its file each time;
 //! what is in the file is compared, so that one that has changed is read anew.
 
-use super::accelerogram::{Record, RecordError};
+use super::accelerogram::Record;
+use super::error::RecordError;
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use std::collections::VecDeque;

@@ -1,7 +1,8 @@
 //! Records from what files hold: which format it is.
 
-use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::accelerogram::{Accelerogram, Record};
 use super::components::{self, Component};
+use super::error::RecordError;
 use super::file::RecordFile;
 use super::options::RecordOptions;
 use super::reading::{Reading, excerpt, numbered, on_line, text_of};

@@ -1,7 +1,8 @@
 //! A record while its file is being read, and how problems in it are told.
 
-use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::accelerogram::{Accelerogram, Record};
 use super::components::Component;
+use super::error::RecordError;
 use super::format::Format;
 use super::unit::Unit;
 use crate::figures::{plain, six_decimals};

@@ -1,7 +1,8 @@
 //! Records of the USGS in SMC format [SmcFormat]: a header of text, one of 48 whole and one of 50 real numbers, comments, then the
 //! samples in cm/s2, or pairs of time and acceleration.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{self, Header};
 use super::numbers::{Columns, fortran_number, numbers_apart};

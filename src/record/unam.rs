@@ -1,8 +1,9 @@
 //! Records in the standard file of accelerations of UNAM, Mexico [Unam]: a header of lines `KEY : VALUE`, in which the channels stand as
 //! `/A/B/C`, then a row of all channels a sample.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::{self, Component};
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{Header, positive};
 use super::numbers::fortran_number;

@@ -1,7 +1,9 @@
 //! Units of accelerations, in the spellings of record files.
 
-use super::accelerogram::STANDARD_GRAVITY;
 use std::fmt;
+
+/// m/s2 in one g.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// What the accelerations of a file are in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,9 @@
 //! acceleration of digitised film, as USC [UscVolume1], CSMIP [ShakalHuang1985] and RENADIC [Renadic] hand them out, and equally spaced
 //! samples of BHRC, Iran [Bhrc]; both in tenths of g. Blocks of CSMIP with a line that says format and step are read in `volume2.rs`.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::{self, Component};
+use super::error::RecordError;
 use super::format::Format;
 use super::header::{self, Header, positive};
 use super::numbers::{Columns, fortran_number, numbers_apart};

@@ -1,8 +1,9 @@
 //! Records of the volume 2 of CSMIP [ShakalHuang1985] and of COSMOS [Cosmos2001], as CESMD hands them out: channels one after the other,
 //! each with headers and with blocks of acceleration, velocity and displacement.
 
-use super::accelerogram::{Accelerogram, RecordError};
+use super::accelerogram::Accelerogram;
 use super::components::{self, Component};
+use super::error::RecordError;
 use super::format::Format;
 use super::numbers::{Columns, fortran_number};
 use super::options::Column;

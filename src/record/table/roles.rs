@@ -1,8 +1,8 @@
 //! Which column is the time and which the acceleration, or whether the numbers are one sequence.
 
+use super::found::Table;
 use super::layout::Layout;
 use super::names::{self, Kind};
-use super::{Announced, Table};
 use crate::figures::plain;
 use crate::record::components::{self, Component};
 use crate::record::options::{Column, RecordOptions};
@@ -236,21 +236,4 @@ pub(super) fn check_step(step: f64, line: usize, reading: &mut Reading) {
         let problem = format!("times {} s apart: expected step = {} s, or none", plain(between), plain(step));
         reading.refuse(|| on_line(line, problem));
     }
-}
-
-/// What a first row says that is none of the samples: `400 0.01` above times that begin before 400, above a sequence of 400, or
-/// with the step that the user says; where there is one column the number of the rows below.
-pub(super) fn announced_in_rows(text: &str, layout: &Layout, step_of_user: Option<f64>) -> Option<Announced> {
-    let mut rows = layout.rows(text);
-    let (line, first) = rows.next()?;
-    if layout.columns == 1 {
-        let count = first.trim().parse().ok()?;
-        return (count > 1 && rows.count() == count).then_some(Announced { line, count, step: None });
-    }
-    let (count, step) = said::count_and_step(first).filter(|_| layout.columns == 2)?;
-    let values = || layout.rows(text).skip(1).filter_map(|(_, row)| layout.separators.numbers(row));
-    let begins_before = *values().next()?.first()? < count as f64;
-    let (rows, numbers) = values().fold((0, 0), |(rows, numbers), row| (rows + 1, numbers + row.len()));
-    let fits = rows == count || numbers == count || step_of_user == Some(step);
-    (begins_before && fits).then_some(Announced { line, count, step: Some(step) })
 }

@@ -1,9 +1,10 @@
 //! Tables of networks, whose headers say step, unit, names and more.
 
+use super::found::{Announced, Table};
 use super::layout::{Layout, Separators};
-use super::{Announced, Table};
-use crate::record::accelerogram::{Accelerogram, RecordError};
+use crate::record::accelerogram::Accelerogram;
 use crate::record::components::{self, Component};
+use crate::record::error::RecordError;
 use crate::record::format::Format;
 use crate::record::options::Column;
 use crate::record::reading::{Reading, Said};
