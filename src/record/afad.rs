@@ -1,4 +1,5 @@
-//! Records of the Turkish network of AFAD [Afad] in text: a header of lines `KEY : VALUE`, then a row of three components a sample.
+//! Records of the Turkish network of AFAD [Afad2017] in text: a header of lines `KEY : VALUE`, then a row of three
+//! components a sample.
 
 use super::accelerogram::Accelerogram;
 use super::components::Component;

@@ -1,4 +1,4 @@
-//! Records of the China Strong Motion Network Centre [Csmnc]: a header in words, then the samples in cm/s2.
+//! Records of the China Strong Motion Network Centre [Csmnc2012]: a header in words, then the samples in cm/s2.
 
 use super::accelerogram::Accelerogram;
 use super::error::RecordError;

@@ -1,4 +1,4 @@
-//! Records of the Central Weather Administration of Taiwan [Cwa]: a header of comments, then rows of time and three components.
+//! Records of the Central Weather Administration of Taiwan [Lee2001]: a header of comments, then rows of time and three components.
 
 use super::accelerogram::Accelerogram;
 use super::components::Component;

@@ -1,5 +1,5 @@
-//! Records of GeoNet, New Zealand, in the files V1A and V2A [Geonet]: components one after the other, each with a header of text and of
-//! numbers, then the accelerations in mm/s2 and, where they have been worked out, velocities and displacements.
+//! Records of GeoNet, New Zealand, in the files V1A and V2A [Cousins2008]: components one after the other, each with a header
+//! of text and of numbers, then the accelerations in mm/s2 and, where they have been worked out, velocities and displacements.
 
 use super::accelerogram::Accelerogram;
 use super::components::{self, Component};
@@ -15,6 +15,9 @@ use super::unit::Unit;
 const TEXT: usize = 16;
 const NUMBERS: usize = 10;
 const COLUMNS: Columns = Columns { count: 10, width: 8 };
+/// Which of the lines of numbers, and which number in it, says how many accelerations there are; behind it stand those of
+/// velocities and of displacements.
+const COUNTS: (usize, usize) = (4, 4);
 const SAMPLES: &str = "Number of points";
 const DURATION: &str = "Duration";
 const PEAK: &str = "Acceleration:";
@@ -47,7 +50,11 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
     let (Some((line, count)), Some(step), Some((peak_line, peak, unit))) = (count, step, peak) else {
         return Err(reading.stop());
     };
-    rows(text, head, (line, count), |k, value| (k * step, unit.in_si(value)), &mut reading);
+    let Some(rows) = rows(text, head, count, &mut reading) else { return Err(reading.stop()) };
+    let sample = |k: f64, value: f64| (k * step, unit.in_si(value));
+    for (number, row) in rows {
+        reading.add_all(number, COLUMNS.values(row, fortran_number), sample, "a number");
+    }
     reading.check_count(line, SAMPLES, count);
     reading.check_peak(peak_line, peak, unit);
     if let Some((line, duration, _)) = head.quantity(DURATION) {
@@ -79,29 +86,31 @@ fn peak(head: &Header<'_>, reading: &mut Reading) -> Option<(usize, f64, Unit)> 
     Some((line, peak, unit))
 }
 
-/// Reads the accelerations of a component: as many lines as their number takes. Velocities and displacements take as many each, if
-/// there are any; a line more or less is refused.
-fn rows(
-    text: &str,
-    head: &Header<'_>,
-    (line, count): (usize, usize),
-    sample: impl Fn(f64, f64) -> (f64, f64),
-    reading: &mut Reading,
-) {
-    let first = head.lines.first().map_or(0, |(number, _)| *number) - 1 + TEXT + NUMBERS;
-    let rows = numbered(text).skip(first).take_while(|(_, line)| !is_title(line));
-    let rows: Vec<(usize, &str)> = rows.filter(|(_, line)| !line.trim().is_empty()).collect();
-    let of_each = count.div_ceil(COLUMNS.count);
-    let others =
-        head.lines.iter().filter(|(_, line)| ["Velocity:", "Displacement:"].iter().any(|key| line.starts_with(key)));
-    let kinds = 1 + others.count();
-    for (number, row) in rows.iter().take(of_each) {
-        reading.add_all(*number, COLUMNS.values(row, fortran_number), &sample, "a number");
+/// The lines of accelerations of a component: as many as their number takes. The header of numbers says how many velocities
+/// and displacements follow; a line more or less of all is refused.
+fn rows<'t>(text: &'t str, head: &Header<'_>, count: usize, reading: &mut Reading) -> Option<Vec<(usize, &'t str)>> {
+    let above = head.lines.first().map_or(0, |(number, _)| *number - 1);
+    let mut below = numbered(text).skip(above + TEXT).take_while(|(_, line)| !is_title(line));
+    let Some((number, counts)) = below.nth(COUNTS.0 - 1) else {
+        reading
+            .refuse(|| "GeoNet: cut off within its headers: expected 10 lines of numbers below the words".to_owned());
+        return None;
+    };
+    let counts: Vec<&str> = counts.split_whitespace().skip(COUNTS.1 - 1).take(3).collect();
+    let counts: Vec<usize> = counts.iter().map_while(|count| count.parse().ok()).collect();
+    if counts.first() != Some(&count) {
+        reading.refuse(|| on_line(number, format!("number {}: expected {count}, the {SAMPLES}", COUNTS.1)));
+        return None;
     }
-    if rows.len() > of_each && rows.len() / kinds != of_each {
-        let found = rows.len();
+    let rows = below.skip(NUMBERS - COUNTS.0).filter(|(_, line)| !line.trim().is_empty());
+    let mut rows: Vec<(usize, &str)> = rows.collect();
+    let lines = |count: usize| count.div_ceil(COLUMNS.count);
+    let (found, expected) = (rows.len(), counts.into_iter().map(lines).fold(0, usize::saturating_add));
+    rows.truncate(lines(count));
+    if found > rows.len() && found != expected {
         reading.refuse(|| {
-            on_line(line, format!("{SAMPLES} {count}: expected {kinds} times as many in the {found} lines below"))
+            on_line(number, format!("{found} lines of numbers below: expected {expected} for these counts"))
         });
     }
+    Some(rows)
 }

@@ -11,6 +11,15 @@
 //! | ESM, ITACA \[Luzi2016\] | lines `KEY: VALUE`, such as `EVENT_NAME:` | those of `UNITS` | from 0, every `SAMPLING_INTERVAL_S` | `esm.rs` |
 //! | CSMIP volume 2 \[ShakalHuang1985\] | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
 //! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 62 of the real header in ms, else number 34 in s | `volume2.rs` |
+//! | CSMIP volume 1 \[ShakalHuang1985\] | `7200 Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)` | those of that line | from 0, as that line says | `volume2.rs` |
+//! | volume 1 of film: USC \[TrifunacLee1973\], CSMIP, RENADIC \[Renadic2010\] | `UNCORRECTED ACCELEROGRAM` in its first line, no such line below | those of `UNITS ARE SEC AND G/10` | those of the pairs | `volume1.rs` |
+//! | volume 1 of BHRC \[Bhrc2012\] | `* VOL1DS` at its beginning | those of `UNITS ARE SECONDS AND G/10` | from 0, number 9 of the real header in Hz | `volume1.rs` |
+//! | USGS SMC \[Seekins1992\] | `2 CORRECTED ACCELEROGRAM` or the like, then an asterisk | cm/s2 | from 0, number 2 of the real header in Hz; else those of the pairs | `smc.rs` |
+//! | GeoNet V1A, V2A \[Cousins2008\] | `Corrected accelerogram` or `Uncorrected accelerogram`, then `Site` | those of `Acceleration: peak` | from 0, every `0.020 sec intervals` | `geonet.rs` |
+//! | CSMNC \[Csmnc2012\] | `NO. OF POINTS:  12800  EQUALLY SPACED INTERVALS OF:  0.005  SEC` | those of `UNIT:` | from 0, as that line says | `csmnc.rs` |
+//! | AFAD \[Afad2017\] | `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)` | those of `PGA VALUES (gal)` | from 0, every `SAMPLING INTERVAL (sec)` | `afad.rs` |
+//! | CWA \[Lee2001\] | `#SampleRate(Hz):` and `#DataSequence:` | those of `AmplitudeUnit` | its first column | `cwa.rs` |
+//! | UNAM \[Unam2004\] | `ARCHIVO ESTANDAR DE ACELERACION` | those of `UNIDADES DE LOS DATOS` | from 0, every `INTERVALO DE MUESTREO` | `unam.rs` |
 //! | columns of text | rows of numbers | those that a header or a comment names, or the user | any that increase strictly, or by a step | `table.rs` |
 //!
 //! Byte order mark, UTF-16, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end

@@ -10,8 +10,9 @@ pub(super) fn told(text: &str) -> Option<&'static str> {
         return Some("CSMIP volume 3, spectra: expected the accelerogram, in the file of the volume 2 or 1 beside it");
     }
     let has = |line: &str, words: [&str; 2]| words.iter().all(|word| line.contains(word));
-    text.lines().take(LINES).any(|line| has(line, ["NO OF POINTS=", "UNITS=CM/SEC**2, CM/SEC, AND CM"])).then_some(
-        "USACE, acceleration, velocity and displacement one after the other: expected the acceleration only, as many numbers as NO OF \
-         POINTS says, with step = ... and unit = \"cm/s2\"",
+    let is_usace = text.lines().take(LINES).any(|line| has(line, ["NO OF POINTS=", "UNITS=CM/SEC**2, CM/SEC, AND CM"]));
+    is_usace.then_some(
+        "USACE, acceleration, velocity and displacement one after the other: expected the acceleration only, as many numbers \
+         as NO OF POINTS says, with step = ... and unit = \"cm/s2\"",
     )
 }

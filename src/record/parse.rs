@@ -103,9 +103,9 @@ fn is_at2(name: &str) -> bool {
 /// What was looked for, and how the file begins.
 fn unknown(text: &str) -> RecordError {
     const SHOWN: usize = 3;
-    let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), the first lines of a file of K-NET, KiK-net, ESM, ITACA, \
-                      CSMIP, COSMOS, USGS SMC, USC, GeoNet, RENADIC, BHRC, CSMNC, AFAD, CWA or UNAM, two columns of numbers, or one with \
-                      step = ... and unit = ...";
+    let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), the first lines of a file of K-NET, KiK-net, \
+                      ESM, ITACA, CSMIP, COSMOS, USGS SMC, USC, GeoNet, RENADIC, BHRC, CSMNC, AFAD, CWA or UNAM, two columns of \
+                      numbers, or one with step = ... and unit = ...";
     let mut problems = vec![format!("no known format: expected one of {looked_for}")];
     let lines = numbered(text).filter(|(_, line)| !line.trim().is_empty()).take(SHOWN);
     problems.extend(lines.map(|(number, line)| on_line(number, excerpt(line))));

@@ -1,5 +1,5 @@
-//! Records of the USGS in SMC format [SmcFormat]: a header of text, one of 48 whole and one of 50 real numbers, comments, then the
-//! samples in cm/s2, or pairs of time and acceleration.
+//! Records of the USGS in SMC format [Seekins1992]: a header of text, one of 48 whole and one of 50 real numbers, comments, then
+//! the samples in cm/s2, or pairs of time and acceleration.
 
 use super::accelerogram::Accelerogram;
 use super::error::RecordError;

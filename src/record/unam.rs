@@ -1,5 +1,5 @@
-//! Records in the standard file of accelerations of UNAM, Mexico [Unam]: a header of lines `KEY : VALUE`, in which the channels stand as
-//! `/A/B/C`, then a row of all channels a sample.
+//! Records in the standard file of accelerations of UNAM, Mexico [Unam2004]: a header of lines `KEY : VALUE`, in which the
+//! channels stand as `/A/B/C`, then a row of all channels a sample.
 
 use super::accelerogram::Accelerogram;
 use super::components::{self, Component};

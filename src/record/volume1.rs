@@ -1,6 +1,7 @@
 //! Records of the volume 1, uncorrected, with a header in words and one of 100 whole and 50 real numbers: pairs of time and
-//! acceleration of digitised film, as USC [UscVolume1], CSMIP [ShakalHuang1985] and RENADIC [Renadic] hand them out, and equally spaced
-//! samples of BHRC, Iran [Bhrc]; both in tenths of g. Blocks of CSMIP with a line that says format and step are read in `volume2.rs`.
+//! acceleration of digitised film, as USC [TrifunacLee1973], CSMIP [ShakalHuang1985] and RENADIC [Renadic2010] hand them out,
+//! and equally spaced samples of BHRC, Iran [Bhrc2012]; both in tenths of g. Blocks of CSMIP with a line that says format and
+//! step are read in `volume2.rs`.
 
 use super::accelerogram::Accelerogram;
 use super::components::{self, Component};

@@ -200,7 +200,9 @@ fn geonet_in_mm() {
     reads_the_same(&geonet());
     // V1A: the accelerations only.
     let raw = GEONET.replace("Corrected", "Uncorrected").replace("Velocity:      peak", "Velocity record unevaluated");
-    let raw = raw.replace("Displacement:  peak", "Displacement record unevaluated");
+    let raw = raw
+        .replace("Displacement:  peak", "Displacement record unevaluated")
+        .replace("      12      12      12 ", "      12       0       0 ");
     let raw = raw.replace(
         "Instrument corrected data at 0.020 sec intervals",
         "Raw readings in units of 1.00 mm/s/s  at intervals of 0.005 s",
@@ -212,12 +214,20 @@ fn geonet_in_mm() {
 #[test]
 fn geonet_that_is_refused() {
     let says = |from: &str, to: &str| refused("S16W", geonet().replace(from, to));
-    // 22 would be the accelerations and the first line of velocities.
     for said in [9, 22] {
-        let expected = "expected 3 times as many in the 6 lines below";
-        let found = says("points    12 ", &format!("points{said:6} "));
-        assert!(found.contains(&format!("line 42: Number of points {said}: {expected}")), "{found:?}");
+        let count = says("points    12 ", &format!("points{said:6} "));
+        assert_eq!(count, [format!("line 52: number 4: expected {said}, the Number of points")]);
     }
+    // 22 would be the accelerations and the first line of velocities.
+    let both = geonet()
+        .replace("points    12 ", "points    22 ")
+        .replace("     250     250      12      12", "     250     250      22      12");
+    assert_eq!(refused("S16W", both), ["line 52: 6 lines of numbers below: expected 7 for these counts"]);
+    let headless = &GEONET[..GEONET.find("      39      56").unwrap()];
+    assert_eq!(
+        refused("", headless),
+        ["GeoNet: cut off within its headers: expected 10 lines of numbers below the words"]
+    );
     let short = says("   -10.0    11.0\n", "   -10.0\n");
     assert_eq!(short, ["line 42: Number of points = 12: expected 11, the number of samples in the file"]);
     let cut = geonet();
