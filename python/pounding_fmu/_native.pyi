@@ -88,7 +88,13 @@ def simulate(
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
 def summary(scene: Scene, step: float, stop: float) -> str: ...
 def build(
-    scene: Scene, output: str | None, file: str | None, libraries: str, platforms: list[str], is_fmi3: bool
+    scene: Scene,
+    output: str | None,
+    file: str | None,
+    libraries: str,
+    platforms: list[str],
+    is_fmi3: bool,
+    has_numbers_only: bool,
 ) -> Path: ...
 def spare(
     outputs: Sequence[tuple[str, str | os.PathLike[str] | None]],
