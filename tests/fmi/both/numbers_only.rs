@@ -90,15 +90,15 @@ fn a_run_has_the_same_numbers() {
             let (one, other) = (all.instance(), numbers.instance());
             one.start();
             other.start();
-            let mut seen = 0.0;
+            let mut seen = 0;
             for k in 0..40 {
                 for instance in [&one, &other] {
                     assert_eq!(instance.step(f64::from(k) * 0.05, 0.05), OK);
                 }
                 assert_eq!(outputs(&one), outputs(&other), "after step {k}");
-                seen += other.real("impacts");
+                seen += one.discrete().into_iter().sum::<u64>();
             }
-            assert!(seen > 0.0, "{scene}");
+            assert!(seen > 0, "{scene}");
         }
     }
 }
@@ -151,7 +151,7 @@ fn derivatives_are_those_of_order_1() {
             assert!(other.rate(name, 2).is_ok());
             assert_eq!(instance.rate(name, 2), Err(DISCARD));
             let expected = format!("{name}: derivative of order 2: expected order 1");
-            assert!(instance.log()[0].message.ends_with(&expected));
+            assert!(instance.log().iter().any(|line| line.message.ends_with(&expected)));
         }
         for name in ["impacts", "contact[1].active"] {
             assert_eq!(instance.rate(name, 1), Ok(0.0), "{name} is constant between events");
