@@ -59,6 +59,6 @@ def build_fmu(
     read = read_scene(scene)
     warn(read.warnings())
     path = None if output is None else file_path("output", output)
-    return _native.build(
-        read, path, path_of(scene), os.fspath(DATA / "libraries"), platforms or [], fmi == 3, bool(numbers_only)
-    )
+    if numbers_only:
+        read = _native.with_numbers_only(read)
+    return _native.build(read, path, path_of(scene), os.fspath(DATA / "libraries"), platforms or [], fmi == 3)

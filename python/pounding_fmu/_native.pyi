@@ -88,14 +88,9 @@ def simulate(
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
 def summary(scene: Scene, step: float, stop: float) -> str: ...
 def build(
-    scene: Scene,
-    output: str | None,
-    file: str | None,
-    libraries: str,
-    platforms: list[str],
-    is_fmi3: bool,
-    has_numbers_only: bool,
+    scene: Scene, output: str | None, file: str | None, libraries: str, platforms: list[str], is_fmi3: bool
 ) -> Path: ...
+def with_numbers_only(scene: Scene) -> Scene: ...
 def spare(
     outputs: Sequence[tuple[str, str | os.PathLike[str] | None]],
     scenes: Sequence[str | os.PathLike[str]],

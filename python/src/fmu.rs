@@ -7,15 +7,15 @@ use fmu_build::libraries::{Libraries, Shipped};
 use fmu_build::{file_name, numbers_only, pack};
 use pounding::FmiVersion;
 use pounding::description::Package;
+use pounding_simulate::scenario::Scenario;
 use pounding_simulate::written;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Writes the FMU of a scene, by default NAME.fmu or NAME.fmi3.fmu in the current directory, with the libraries of a folder for these
-/// platforms or all, and with numbers alone where that is wanted; returns where it is. It goes neither over the file that the scene comes from, if there is one, nor over its
+/// platforms or all; returns where it is. It goes neither over the file that the scene comes from, if there is one, nor over its
 /// record.
 #[pyfunction]
 pub fn build(
@@ -26,20 +26,23 @@ pub fn build(
     libraries: PathBuf,
     platforms: Vec<String>,
     is_fmi3: bool,
-    has_numbers_only: bool,
 ) -> PyResult<PathBuf> {
-    let mut package = Cow::Borrowed(&*scene.get().0.package);
-    if has_numbers_only {
-        package = Cow::Owned(numbers_only(&package).map_err(|error| exception(&error))?);
-    }
+    let package = &scene.get().0.package;
     let version = if is_fmi3 { FmiVersion::V3 } else { FmiVersion::V2 };
-    let output = output.unwrap_or_else(|| file_name(&package, version).into());
+    let output = output.unwrap_or_else(|| file_name(package, version).into());
     if let Some(file) = file {
         written::check(&written::sources(&file, &package.scene, None), &[("output", Some(&output))])
             .map_err(PyValueError::new_err)?;
     }
-    py.detach(|| write(&package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;
+    py.detach(|| write(package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;
     Ok(output)
+}
+
+/// The scene of an FMU that has numbers alone.
+#[pyfunction]
+pub fn with_numbers_only(scene: &Bound<'_, Scene>) -> PyResult<Scene> {
+    let package = numbers_only(&scene.get().0.package).map_err(|error| exception(&error))?;
+    Ok(Scene(Scenario::new(package)))
 }
 
 fn write(

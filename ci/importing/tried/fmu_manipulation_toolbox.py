@@ -24,7 +24,7 @@ def run(fmu, names, values, step, stop):
         "name": "container.fmu",
         "step_size": step,
         "fmu": ["inner.fmu"],
-        "input": [["inner.fmu", name, name] for name in values],
+        "start": [["inner.fmu", name, value] for name, value in values.items()],
         "output": [["inner.fmu", name, name] for name in names],
         **{f"auto_{what}": False for what in ["link", "input", "output", "parameter"]},
     }
@@ -32,6 +32,6 @@ def run(fmu, names, values, step, stop):
     command = [Path(sys.executable).parent / "fmucontainer", "-fmu-directory", ".", "-container", "container.json"]
     subprocess.run([*map(str, command), "-fmi", version], check=True)
     result = simulate_fmu(
-        "container.fmu", stop_time=stop, step_size=step, output_interval=step, output=names, start_values=values
+        "container.fmu", stop_time=stop, step_size=step, output_interval=step, output=names
     )
     return [result[name][-1] for name in names]

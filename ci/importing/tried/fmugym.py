@@ -1,7 +1,7 @@
 """FMUGym: an FMU as an environment of reinforcement learning."""
 
 NAME = "FMUGym"
-PACKAGES = ["fmugym==0.2.0", "fmpy==0.3.32", "gymnasium==1.2.2"]
+PACKAGES = ["fmugym==0.2.0", "fmpy==0.3.32"]
 TOLERANCE = 1e-6  # observations are of single precision
 TAKE = "numbers only, either version"
 KNOW = (
@@ -19,6 +19,9 @@ def run(fmu, names, values, step, stop):
             reference = {variable.name: variable.valueReference for variable in self.fmu_description.modelVariables}
             return {reference[name]: value for name, value in values.items()}
 
+        def _create_action_space(self, inputs):
+            return None  # there are none: the record is in the FMU
+
         def _get_terminated(self):
             return False, False
 
@@ -29,14 +32,11 @@ def run(fmu, names, values, step, stop):
     for name in names:
         outputs.add_var_box(name, np.array([-1e9]), np.array([1e9]))
     empty = VarSpace("none")
-    config = FMUGymConfig(
-        fmu_path=fmu, stop_time=stop, sim_step_size=step, action_step_size=step, inputs=empty, outputs=outputs,
-        random_vars=empty,
-    )
-    observe = Buildings._get_obs
-    Buildings._create_action_space = lambda self, inputs: None
+    steps = {"stop_time": stop, "sim_step_size": step, "action_step_size": step}
+    config = FMUGymConfig(fmu_path=fmu, inputs=empty, outputs=outputs, random_vars=empty, **steps)
     environment = Buildings(config)
-    environment.reset()
+    observed, _ = environment.reset()
     while environment.time < stop - step / 2:
-        environment.step(np.zeros(0))
-    return observe(environment)
+        observed, *_ = environment.step(np.zeros(0))
+    found = dict(zip(environment.output_dict, observed))
+    return [found[name] for name in names]
