@@ -41,6 +41,10 @@ pub struct BuildArguments {
     /// For FMPy on Arm Linux, which looks for linux64 in FMI 2.0: the library for Arm, which is the only one then, goes there.
     #[arg(long)]
     pub(crate) arm_in_linux64: bool,
+    /// For importers that read every variable as a number (docs/importers.md): the FMU has counts and flags as numbers, and no
+    /// texts; as outputs.numbers_only = true in the scene.
+    #[arg(long)]
+    pub(crate) numbers_only: bool,
     #[command(flatten)]
     pub(crate) limit: Limit,
 }

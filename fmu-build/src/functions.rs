@@ -2,8 +2,9 @@
 
 use pounding::FmiVersion;
 
-/// Every function that an FMI 2.0 co-simulation library exports: 25 common ones and 9 for co-simulation.
-const FMI2: [&str; 34] = [
+/// Every function that an FMI 2.0 library exports: 25 common ones, 9 for co-simulation and 10 for Model Exchange, which there
+/// are importers that look for whatever the FMU is.
+const FMI2: [&str; 44] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2SetDebugLogging",
@@ -38,6 +39,16 @@ const FMI2: [&str; 34] = [
     "fmi2GetIntegerStatus",
     "fmi2GetBooleanStatus",
     "fmi2GetStringStatus",
+    "fmi2EnterEventMode",
+    "fmi2NewDiscreteStates",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2CompletedIntegratorStep",
+    "fmi2SetTime",
+    "fmi2SetContinuousStates",
+    "fmi2GetDerivatives",
+    "fmi2GetEventIndicators",
+    "fmi2GetContinuousStates",
+    "fmi2GetNominalsOfContinuousStates",
 ];
 
 /// Every function that an FMI 3.0 library exports, whichever interfaces the FMU has: masters look for all of them.

@@ -8,6 +8,7 @@
 //! | `main.rs`, `with_check.rs`, `workspace.rs` | `cargo fmu`, and its name for `check`: where the checkout is; compiling the library with cargo |
 //! | `libraries.rs` | the libraries that go into an FMU, and a folder of them |
 //! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
+//! | `numbers_only.rs` | the scene of an FMU that has numbers alone |
 //! | `merge.rs` | one FMU with the libraries of two |
 //! | `archive.rs` | the zip, unpacked safely; what an FMU holds and its zip are written in `pack/`, a crate of its own |
 //! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
@@ -50,11 +51,13 @@ mod inspection;
 pub mod libraries;
 mod log;
 mod merge;
+mod numbers_only;
 mod provenance;
 mod recipe;
 mod sight;
 mod steps;
 mod trial;
 
+pub use numbers_only::numbers_only;
 pub use pounding_pack::platform::folder as host_folder;
 pub use pounding_pack::{file_name, pack};

@@ -4,6 +4,7 @@ use crate::arguments::BuildArguments;
 use crate::destination::Destination;
 use crate::face::{Face, Home};
 use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
+use crate::numbers_only::numbers_only;
 use crate::provenance::Provenance;
 use crate::trial::Trial;
 use anyhow::{Context, Result, bail};
@@ -32,7 +33,10 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     line.work("reading the scene");
     let home = face.home()?;
     let scene_file = arguments.scene.as_ref().unwrap_or(&home.default_scene);
-    let package = read(scene_file)?;
+    let mut package = read(scene_file)?;
+    if arguments.numbers_only {
+        package = numbers_only(&package)?;
+    }
     warnings_of(&package).iter().for_each(|warning| line.say(warning));
     let default_output = home.fmus.join(file_name(&package, version));
     let output = arguments.output.as_ref().unwrap_or(&default_output);

@@ -62,7 +62,7 @@ fn page(package: &Package, version: FmiVersion) -> String {
         USE.replace("EVENTS", events(version)),
     );
     html += &laws(&scene.contacts);
-    html += &variables(&Table::new(scene), version);
+    html += &variables(&Table::of_fmu(scene), version);
     let _ = write!(
         html,
         "<h2>Scene</h2>\n<pre>{}</pre>\n<p><a href=\"licenses/license.txt\">Licences</a></p>\n</body>\n</html>\n",

@@ -20,6 +20,7 @@ def build_fmu(
     output: str | os.PathLike[str] | None = None,
     platforms: Iterable[str] | None = None,
     fmi: int = 2,
+    numbers_only: bool = False,
 ) -> Path:
     """Makes an FMU (co-simulation) of a scene and returns its path. The FMU is not run.
 
@@ -31,6 +32,8 @@ def build_fmu(
         platforms: those that the FMU can be run on, such as ``["win64", "linux64"]``; all whose library has come with
             this package where nothing is said.
         fmi: the version of FMI, 2 or 3.
+        numbers_only: for importers that read every variable as a number: counts and flags are numbers in the FMU, and
+            there are no texts; as ``outputs.numbers_only`` in the scene.
 
     >>> import pounding_fmu, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -56,4 +59,6 @@ def build_fmu(
     read = read_scene(scene)
     warn(read.warnings())
     path = None if output is None else file_path("output", output)
+    if numbers_only:
+        read = _native.with_numbers_only(read)
     return _native.build(read, path, path_of(scene), os.fspath(DATA / "libraries"), platforms or [], fmi == 3)

@@ -4,9 +4,10 @@ use crate::scene::Scene;
 use anyhow::Result;
 use fmu_build::destination::Destination;
 use fmu_build::libraries::{Libraries, Shipped};
-use fmu_build::{file_name, pack};
+use fmu_build::{file_name, numbers_only, pack};
 use pounding::FmiVersion;
 use pounding::description::Package;
+use pounding_simulate::scenario::Scenario;
 use pounding_simulate::written;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -35,6 +36,13 @@ pub fn build(
     }
     py.detach(|| write(package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;
     Ok(output)
+}
+
+/// The scene of an FMU that has numbers alone.
+#[pyfunction]
+pub fn with_numbers_only(scene: &Bound<'_, Scene>) -> PyResult<Scene> {
+    let package = numbers_only(&scene.get().0.package).map_err(|error| exception(&error))?;
+    Ok(Scene(Scenario::new(package)))
 }
 
 fn write(

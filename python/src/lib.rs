@@ -41,7 +41,7 @@ mod _native {
     #[pymodule_export]
     use crate::command::run_command;
     #[pymodule_export]
-    use crate::fmu::build;
+    use crate::fmu::{build, with_numbers_only};
     #[pymodule_export]
     use crate::records::Record;
     #[pymodule_export]

@@ -8,7 +8,7 @@ import fmus
 import numpy as np
 import pounding_fmu
 import pytest
-from fmpy import read_model_description
+from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 OTHER = {"left.mass[1]": 4.0, "left.stiffness[2]": 3000.0, "right.damping_ratio": 0.02, "contact[2].gap": 0.01}
@@ -160,3 +160,18 @@ def test_fmi3(tmp_path, monkeypatch):
         with pytest.raises(ValueError, match=r"fmi = .*: expected 2 or 3"):
             pounding_fmu.build_fmu(fmus.FEUP, "y.fmu", fmi=wrong)
     assert not Path("y.fmu").exists()
+
+
+@pytest.mark.parametrize(("fmi", "number"), [(2, "Real"), (3, "Float64")])
+def test_numbers_only(tmp_path, fmi, number):
+    """Valid, of one type, and the impacts that any other counts; the module itself has all variables as ever."""
+    made = pounding_fmu.build_fmu(fmus.FEUP, tmp_path / "x.fmu", platforms=[fmus.HOST], fmi=fmi, numbers_only=True)
+    assert validate_fmu(str(made)) == []
+    description = read_model_description(str(made), validate=True)
+    assert {variable.type for variable in description.modelVariables} == {number}
+    assert description.coSimulation.maxOutputDerivativeOrder == 1
+    read = simulate_fmu(str(made), output=["impacts", "contact[2].active"], output_interval=0.01)
+    result = pounding_fmu.simulate(fmus.feup("energy = true", "energy = true\nnumbers_only = true"), step=0.01)
+    for name in ("impacts", "contact[2].active"):
+        assert read[name].dtype == float and np.array_equal(read[name], result[name])
+    assert (result["impacts"].dtype, result["contact[2].active"].dtype) == (np.int32, bool)

@@ -12,7 +12,7 @@ const NAMESPACE: Uuid = Uuid::from_u128(0x8f8a_0c6e_51b7_4d0a_9d35_6f0b_7c1e_42a
 impl Package {
     /// The text of `modelDescription.xml`; the same package gives the same bytes.
     pub fn model_description(&self, version: FmiVersion) -> String {
-        let table = Table::new(&self.scene);
+        let table = Table::of_fmu(&self.scene);
         xml::document(self, &table, version, &guid(self.fingerprint_with(&table, version)))
     }
 
@@ -23,7 +23,7 @@ impl Package {
 
     /// What the GUID is: a name-based UUID of the description without it, the scene and the record.
     pub fn fingerprint(&self, version: FmiVersion) -> Uuid {
-        self.fingerprint_with(&Table::new(&self.scene), version)
+        self.fingerprint_with(&Table::of_fmu(&self.scene), version)
     }
 
     /// The same where the variables of the scene are at hand.

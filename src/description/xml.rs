@@ -8,7 +8,7 @@ use super::{model_structure, xml2, xml3};
 use crate::FmiVersion;
 use crate::engine::Inputs;
 use crate::scene::Package;
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Settings, Slot, Table, Type, Unit, Value};
+use crate::variables::{Settings, Slot, Table, Type, Unit, Value, highest_output_derivative};
 use quick_xml::Writer;
 use std::io;
 
@@ -29,7 +29,7 @@ pub(super) fn document(package: &Package, table: &Table, version: FmiVersion, gu
 
 fn write_document(xml: &mut Xml, package: &Package, table: &Table, version: FmiVersion, guid: &str) -> io::Result<()> {
     let scene = &package.scene;
-    let highest_derivative = HIGHEST_OUTPUT_DERIVATIVE.to_string();
+    let highest_derivative = highest_output_derivative(scene).to_string();
     let (name_of_guid, co_simulation) = match version {
         FmiVersion::V2 => ("guid", xml2::co_simulation(&highest_derivative)),
         FmiVersion::V3 => ("instantiationToken", xml3::co_simulation(&highest_derivative)),

@@ -1,12 +1,11 @@
 //! The C interface of FMI 2.0 and of FMI 3.0 for co-simulation: the only unsafe code of the crate, and no physics.
 //!
-//! `v2/` has the 34 functions of FMI 2.0, `v3/` the 75 of FMI 3.0, most of them rows of tables (`functions` in
-//! `fence.rs`): `life.rs`, `values.rs`, `step.rs`, `state.rs` and `derivatives.rs`, and in FMI 3.0 `events.rs` and what
-//! is refused there (`refused.rs`). `common/` has what both share. A call runs through the fence (`fence.rs`), which
-//! checks instance, version and call sequence, catches panics (`panics.rs`), and sends the messages (`logger.rs`) when
-//! nothing is borrowed any more; `arguments.rs` turns pointers into slices and strings, `instance.rs` begins and ends
-//! the life of an instance; its `values.rs`, `state.rs` and `derivatives.rs` do the work of functions that only their
-//! names tell apart.
+//! `v2/` has the 44 functions of FMI 2.0, `v3/` the 75 of FMI 3.0, most of them rows of tables (`functions` in
+//! `fence.rs`): `life.rs`, `values.rs`, `step.rs`, `state.rs`, `derivatives.rs`, in FMI 3.0 `events.rs`, and what is
+//! refused (`refused.rs`). `common/` has what both share. A call runs through the fence (`fence.rs`), which checks
+//! instance, version and call sequence, catches panics (`panics.rs`), and sends the messages (`logger.rs`) when nothing is
+//! borrowed any more; `arguments.rs` turns pointers into slices and strings, `instance.rs` begins and ends the life of an
+//! instance; its `values.rs`, `state.rs` and `derivatives.rs` do the work of functions that only their names tell apart.
 //!
 //! What every function relies on, as FMI 2.0.4, chapter 2.1, and FMI 3.0.2, chapter 2.2, require of a caller: an
 //! instance is null or comes from `fmi2Instantiate` or `fmi3InstantiateCoSimulation` and has not been freed, no two

@@ -40,6 +40,8 @@ pub struct Scene {
     pub energy: bool,
     /// `outputs.peaks`: the largest displacements, drifts, accelerations and base shears so far exist.
     pub peaks: bool,
+    /// `outputs.numbers_only`: the FMU declares numbers alone, for importers that take every variable for one.
+    pub numbers_only: bool,
     /// Accuracy of the contact episodes.
     pub solver: Solver,
 }

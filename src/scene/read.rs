@@ -112,7 +112,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         _ => {}
     }
     let right = right.unwrap_or_else(Building::absent);
-    let (energy, peaks) = outputs(root.section("outputs"));
+    let Shown { energy, peaks, numbers_only } = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
     let (name, description) = (name.to_owned(), description.to_owned());
@@ -130,6 +130,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         links,
         energy,
         peaks,
+        numbers_only,
         solver,
     }
 }
@@ -340,12 +341,19 @@ fn inputs(mut section: Section<'_>) -> bool {
     floor_forces
 }
 
-/// Whether there are an energy account and peaks.
-fn outputs(mut section: Section<'_>) -> (bool, bool) {
+/// What is shown, and how; as in [`Scene`].
+struct Shown {
+    energy: bool,
+    peaks: bool,
+    numbers_only: bool,
+}
+
+fn outputs(mut section: Section<'_>) -> Shown {
     let energy = section.get("energy").is_some_and(|item| item.boolean());
     let peaks = section.get("peaks").is_none_or(|item| item.boolean());
+    let numbers_only = section.get("numbers_only").is_some_and(|item| item.boolean());
     section.close(KEY);
-    (energy, peaks)
+    Shown { energy, peaks, numbers_only }
 }
 
 fn solver(mut section: Section<'_>) -> Solver {

@@ -64,7 +64,8 @@ impl Slave {
         self.interface.version() == FmiVersion::V3 && reference == self.table.time_reference()
     }
 
-    /// Sets each variable to the value of its place: all of them, or none where anything is wrong.
+    /// Sets each variable to the value of its place: all of them, or none where anything is wrong. Nothing happens to a
+    /// parameter that is set to the value that it has when parameters are fixed: there are importers that set all of them again.
     ///
     /// # Errors
     /// References that there are not, values of another type or out of their range, variables that cannot be set now,
@@ -75,7 +76,9 @@ impl Slave {
         for (reference, value) in pairs() {
             if let Some(problem) = self.refuse(reference, value) {
                 problems.push(problem);
-            } else if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) {
+            } else if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference)
+                && self.takes_parameters()
+            {
                 let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
                 note(settings.write(parameter, value), &mut problems);
             }
@@ -86,19 +89,24 @@ impl Slave {
             self.settings = Arc::new(changed);
             self.run.stop();
         }
-        if self.under_way.is_none() && !references.is_empty() {
-            self.handle_event()?;
-        }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
                 match self.ends_of_inputs() {
                     Some(ends) => ends.push((input, value)),
-                    None => self.run.set_input(input, value),
+                    None => {
+                        self.handle_event()?;
+                        self.run.set_input(input, value);
+                    }
                 }
                 self.look_at_input(input, value);
             }
         }
         Ok(())
+    }
+
+    /// Whether parameters can still be changed.
+    const fn takes_parameters(&self) -> bool {
+        matches!(self.phase, Phase::Instantiated | Phase::Initialization)
     }
 
     /// Warns once in a run of a ground that shakes like no other.
@@ -126,7 +134,8 @@ impl Slave {
         let problem = match (row.slot, self.phase) {
             (Slot::Input(_), _) if !self.takes_inputs() => "the step asks for no inputs now",
             (Slot::Input(_), _) => return row.problem(value.real()?),
-            (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => return None,
+            (Slot::Parameter(_), _) if self.takes_parameters() => return None,
+            (Slot::Parameter(parameter), _) if self.settings.read(parameter).is_same(value) => return None,
             (Slot::Parameter(_), _) => "a fixed parameter can only be set before the end of initialisation",
             (Slot::Calculated(_) | Slot::Output(_), _) => "computed by the FMU, it cannot be set",
         };

@@ -4,7 +4,7 @@
 use super::instance::Slave;
 use super::sequence::{Call, Phase};
 use super::status::{Refusal, Status};
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, InitialDependencies, Slot, Type, Unit, by_parameter};
+use crate::variables::{InitialDependencies, Slot, Type, Unit, by_parameter, highest_output_derivative};
 
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
@@ -65,9 +65,10 @@ impl Slave {
         if !matches!(row.ty, Type::Real(_)) {
             return Ok(Err(self.wrong_type(reference, self.real())));
         }
-        if !(1..=i32::from(HIGHEST_OUTPUT_DERIVATIVE)).contains(&order) {
-            let expected = format!("expected order 1 to {HIGHEST_OUTPUT_DERIVATIVE}");
-            return Ok(Err(format!("{}: derivative of order {order}: {expected}", row.name)));
+        let highest = highest_output_derivative(&self.settings.scene);
+        if !(1..=i32::from(highest)).contains(&order) {
+            let expected = if highest > 1 { format!("order 1 to {highest}") } else { "order 1".to_owned() };
+            return Ok(Err(format!("{}: derivative of order {order}: expected {expected}", row.name)));
         }
         let (now, rates) = self.start()?.rates();
         let [first, second] = now.rates(rates, output);

@@ -45,7 +45,7 @@ pub struct Slave {
 impl Slave {
     /// A fresh instance of what an FMU holds.
     pub fn new(package: Package, interface: Interface, log: Log) -> Slave {
-        let table = Table::new(&package.scene);
+        let table = Table::of_fmu(&package.scene);
         let fingerprint = package.fingerprint_with(&table, interface.version());
         let settings = Arc::new(Settings::new(package.scene, package.record.map(|packaged| packaged.record)));
         Slave {

@@ -3,9 +3,13 @@
 
 use super::slot::{Calculated, Parameter, Slot};
 use crate::engine::{ContactOutput, Model, Output};
+use crate::scene::Scene;
 
-/// The highest order of the derivatives of outputs with respect to time.
-pub const HIGHEST_OUTPUT_DERIVATIVE: u8 = 2;
+/// The highest order of the derivatives of outputs with respect to time. An FMU of numbers only gives the first alone:
+/// importers for which it is made take the number for true or false.
+pub const fn highest_output_derivative(scene: &Scene) -> u8 {
+    if scene.numbers_only { 1 } else { 2 }
+}
 
 /// The derivative of an initial unknown with respect to a parameter that it depends on, where there is a closed form of it.
 pub fn by_parameter(model: &Model, unknown: Slot, parameter: Parameter) -> Option<f64> {

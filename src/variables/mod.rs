@@ -1,7 +1,8 @@
 //! The variables of the FMU: one table for description and dispatch.
 //!
-//! [`Table::new`] lists what exists for a scene; the value reference of a variable is the number of its row. The
-//! description walks the rows, and every access goes through the row's [`Slot`] (`values.rs`), so the two cannot differ.
+//! [`Table::new`] lists what exists for a scene, [`Table::of_fmu`] what its FMU declares; the value reference of a variable
+//! is the number of its row. The description walks the rows, and every access goes through the row's [`Slot`]
+//! (`values.rs`), so the two cannot differ.
 //!
 //! ```
 //! use pounding::engine::{Model, Point};
@@ -31,6 +32,7 @@ mod derivatives;
 mod foundation_rows;
 mod initial_dependencies;
 mod link_rows;
+mod numbers_only;
 mod part;
 mod rows;
 mod slot;
@@ -40,7 +42,7 @@ mod values;
 
 pub use changes::Changes;
 pub use dependencies::{Dependence, Dependencies};
-pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
+pub use derivatives::{by_parameter, highest_output_derivative};
 pub use initial_dependencies::InitialDependencies;
 pub use slot::{Calculated, Causality, Parameter, Slot};
 pub use table::{Row, Table, Type, Variability};

@@ -59,6 +59,14 @@ impl<'a> Value<'a> {
         if let Value::String(value) = self { Some(value) } else { None }
     }
 
+    /// Whether both are of one type and the same: numbers to the last bit.
+    pub fn is_same(self, other: Value<'_>) -> bool {
+        match (self, other) {
+            (Value::Real(one), Value::Real(other)) => one.to_bits() == other.to_bits(),
+            (one, other) => one == other,
+        }
+    }
+
     /// Name of its type.
     pub const fn type_name(self, version: FmiVersion) -> &'static str {
         let ty = match self {

@@ -73,6 +73,9 @@ fn what_is_left_out_has_its_default_and_whole_numbers_are_numbers() {
     assert_eq!((scene.left.mass.as_slice(), &scene.left.stiffness), ([1.0].as_slice(), &Stiffness::Shear(vec![2.0])));
     assert_eq!((scene.ground.record, scene.ground.scaling), (None, Scaling::Scale(1.0)));
     assert!(!scene.floor_forces && !scene.energy && scene.contacts.is_empty());
+    assert!(scene.peaks && !scene.numbers_only);
+    let other = Scene::from_toml(&format!("{SHORT}\n[outputs]\npeaks = false\nnumbers_only = true\n")).unwrap();
+    assert!(!other.peaks && other.numbers_only && !other.energy);
     assert_eq!((scene.solver.relative_tolerance, scene.solver.min_approach_velocity), (1e-12, 1e-4));
     let hexadecimal = Scene::from_toml(&SHORT.replacen("[1]", "[0x1F]", 1)).unwrap();
     assert_eq!(hexadecimal.left.mass, [31.0]);

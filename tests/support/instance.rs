@@ -225,8 +225,13 @@ impl Instance<'_> {
     }
 
     pub fn set_string(&self, name: &str, value: &str) -> c_int {
-        let text = CString::new(value).unwrap();
-        (self.functions().set_strings)(self.component, &[self.fmu.vr(name)], &[text.as_ptr()])
+        self.set_strings(&[self.fmu.vr(name)], &[value])
+    }
+
+    pub fn set_strings(&self, vr: &[u32], values: &[&str]) -> c_int {
+        let texts: Vec<CString> = values.iter().map(|value| CString::new(*value).unwrap()).collect();
+        let values: Vec<*const c_char> = texts.iter().map(|text| text.as_ptr()).collect();
+        (self.functions().set_strings)(self.component, vr, &values)
     }
 
     /// The bits of every output.

@@ -96,7 +96,7 @@ impl Unpacked {
         }
         let package = Package::from_resources(&resources).unwrap();
         let description = ModelDescription::from_string(&package.model_description(FmiVersion::V2)).unwrap();
-        Unpacked { directory, table: Table::new(&package.scene), package, description }
+        Unpacked { directory, table: Table::of_fmu(&package.scene), package, description }
     }
 
     pub fn resources(&self) -> PathBuf {

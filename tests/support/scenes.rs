@@ -16,6 +16,13 @@ pub fn record() -> String {
     format!("time_s,accel_m_s2\n{}", (0..=100).map(sample).collect::<String>())
 }
 
+/// The scene of an FMU that has numbers alone.
+pub fn numbers_only(scene_text: &str) -> String {
+    let key = "[outputs]\nnumbers_only = true\n";
+    let text = if scene_text.contains("[outputs]\n") { scene_text } else { &format!("{scene_text}\n[outputs]\n") };
+    text.replacen("[outputs]\n", key, 1)
+}
+
 /// The least that a scene may have, with a description that XML has to escape.
 pub const NO_CONTACT: &str = "name = \"Apart\"\ndescription = \"a < b & \\\"c\\\"\"\n\
     [left]\nmass = [1e5]\nstiffness = [1e7]\ndamping = { matrix = [[1e3]] }\n\

@@ -166,18 +166,21 @@ fn a_library_that_does_not_belong_to_the_description() {
 
 #[test]
 fn a_library_that_lacks_a_function_or_is_none() {
-    let rename = |mut files: Files| {
-        let (name, other) = (b"fmi2CancelStep", b"fmi2CancelStop");
-        let library = &mut files[1].1;
-        let places: Vec<usize> =
-            library.windows(name.len()).enumerate().filter(|(_, bytes)| bytes == name).map(|(at, _)| at).collect();
-        assert!(!places.is_empty());
-        for at in places {
-            library[at..at + other.len()].copy_from_slice(other);
+    let rename = |name: &'static [u8], other: &'static [u8]| {
+        move |mut files: Files| {
+            let library = &mut files[1].1;
+            let places: Vec<usize> =
+                library.windows(name.len()).enumerate().filter(|(_, bytes)| *bytes == name).map(|(at, _)| at).collect();
+            assert!(!places.is_empty());
+            for at in places {
+                library[at..at + other.len()].copy_from_slice(other);
+            }
+            files
         }
-        files
     };
-    plant(rename, "exported functions", "fmi2CancelStep is not exported");
+    plant(rename(b"fmi2CancelStep", b"fmi2CancelStop"), "exported functions", "fmi2CancelStep is not exported");
+    // Of Model Exchange, which there are importers that look for in every FMU.
+    plant(rename(b"fmi2SetTime", b"fmi2SetTome"), "exported functions", "fmi2SetTime is not exported");
     let garbage = |mut files: Files| {
         files[1].1 = b"not a library".to_vec();
         files

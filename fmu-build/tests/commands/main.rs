@@ -10,6 +10,7 @@ mod fmi_rs;
 mod hostile_archives;
 mod licenses;
 mod merge;
+mod numbers_only;
 mod prebuilt;
 mod recipe;
 mod slips;

@@ -44,6 +44,24 @@ macro_rules! functions {
 }
 pub(in crate::fmi) use functions;
 
+/// The functions of a version for what these FMUs do not offer, with the types of all that comes after the instance, below the
+/// reason for which they are refused. Masters look for every function of the standard, so each is there.
+macro_rules! refused {
+    ($version:ident: $($reason:literal: { $($name:ident($($argument:ty),* $(,)?);)+ })+) => {
+        $($(
+            #[cfg_attr(fmi_exports, unsafe(no_mangle))]
+            pub unsafe extern "C" fn $name(
+                c: $crate::fmi::common::types::Component $(, _: $argument)*
+            ) -> std::ffi::c_int {
+                let function = $crate::fmi::common::fence::$version($crate::slave::Call::NotOffered(stringify!($name)));
+                // SAFETY: as the module says.
+                unsafe { $crate::fmi::common::fence::refuse(c, function, $reason) }
+            }
+        )+)+
+    };
+}
+pub(in crate::fmi) use refused;
+
 /// Checks instance, version and call sequence, runs the body, turns its result or its panic into a status, and logs.
 ///
 /// A panic is `fmi2Fatal` (`fmi3Fatal`) and the instance answers so from then on: the state that the panic broke is never
@@ -79,13 +97,13 @@ pub(in crate::fmi) unsafe fn go_on<T: Into<Status>>(
     unsafe { fenced(component, function, body) }
 }
 
-/// Refuses a function of FMI 3.0 that these FMUs do not offer, in every phase.
+/// Refuses a function that these FMUs do not offer, in every phase.
 ///
 /// # Safety
 /// As for [`with_instance`].
-pub(in crate::fmi) unsafe fn refuse(component: Component, name: &'static str, reason: &str) -> c_int {
+pub(in crate::fmi) unsafe fn refuse(component: Component, function: Function, reason: &str) -> c_int {
     // SAFETY: the caller's promise.
-    unsafe { fenced::<()>(component, v3(Call::NotOffered(name)), |_| Err(Refusal::from(reason.to_owned()))) }
+    unsafe { fenced::<()>(component, function, |_| Err(Refusal::from(reason.to_owned()))) }
 }
 
 /// # Safety
@@ -173,7 +191,7 @@ mod tests {
                 assert_eq!(call(c, after, || panic!("the instance is poisoned")), Status::Fatal as c_int);
             }
             // SAFETY: as in `call`.
-            assert_eq!(unsafe { refuse(c, "fmi3GetInt8", "never") }, Status::Fatal as c_int);
+            assert_eq!(unsafe { refuse(c, of(Call::NotOffered("refused")), "never") }, Status::Fatal as c_int);
         }
     }
 

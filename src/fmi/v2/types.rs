@@ -13,6 +13,9 @@ pub(super) type Boolean = c_int;
 /// `fmi2CoSimulation` of `fmi2Type`.
 pub(super) const CO_SIMULATION: c_int = 1;
 
+/// `fmi2EventInfo`, which nothing is written into.
+pub(super) type EventInfo = c_void;
+
 /// `fmi2CallbackFunctions`. The memory functions and `stepFinished` are never called, so their types do not matter.
 #[repr(C)]
 #[derive(Debug)]

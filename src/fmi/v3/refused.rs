@@ -1,29 +1,14 @@
-//! What these FMUs do not offer. Masters look for every function of the standard, so each is here, and answers with an error
-//! and the reason.
+//! What these FMUs do not offer: each answers with an error and the reason.
 
 use super::types::{Binary, Boolean, Clock, ClockUpdate, DependencyKind, IntervalQualifier, Preemption};
 use crate::description::Category;
-use crate::fmi::common::fence::refuse;
+use crate::fmi::common::fence::refused;
 use crate::fmi::common::logger::{LogMessage, Logger};
 use crate::fmi::common::types::{Component, ComponentEnvironment, Text, ValueReference};
 use crate::slave::Message;
-use std::ffi::c_int;
 use std::ptr::null_mut;
 
-/// Functions with the types of all that comes after the instance, below the reason for which they are refused.
-macro_rules! refused {
-    ($($reason:literal: { $($name:ident($($argument:ty),*);)+ })+) => {
-        $($(
-            #[cfg_attr(fmi_exports, unsafe(no_mangle))]
-            pub unsafe extern "C" fn $name(c: Component $(, _: $argument)*) -> c_int {
-                // SAFETY: as the module says.
-                unsafe { refuse(c, stringify!($name), $reason) }
-            }
-        )+)+
-    };
-}
-
-refused! {
+refused! { v3:
     "this FMU has no variables of this type": {
         fmi3GetFloat32(*const ValueReference, usize, *mut f32, usize);
         fmi3GetInt8(*const ValueReference, usize, *mut i8, usize);

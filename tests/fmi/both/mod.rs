@@ -5,6 +5,8 @@ mod derivatives;
 mod directional;
 mod instantiation;
 mod logging;
+mod numbers_only;
+mod refused;
 mod sequence;
 mod serialized;
 mod states;

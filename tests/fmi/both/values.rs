@@ -1,8 +1,9 @@
 //! Start values, parameters and inputs.
 
 use crate::support::*;
-use fmi::model_description::fmi2::VariableType;
+use fmi::model_description::fmi2::{Causality, VariableType};
 use pounding::variables::Type;
+use std::ffi::c_int;
 use std::fs;
 
 #[test]
@@ -111,6 +112,56 @@ fn fixed_parameters_are_fixed_after_initialization() {
         assert_eq!(instance.set_real("contact[1].gap", 0.01), ERROR);
         assert!(instance.log()[0].message.contains("contact[1].gap: a fixed parameter"));
         assert_eq!(instance.real("contact[1].gap"), 0.002);
+    }
+}
+
+/// Some importers set all parameters before the initialisation and once more after it.
+#[test]
+fn a_fixed_parameter_is_set_again_to_what_it_is() {
+    for fmu in Fmu::both(RECORD_SCENE) {
+        let (again, once) = (fmu.instance(), fmu.instance());
+        let record = fmu.resources().join("record.csv").to_str().unwrap().to_owned();
+        for instance in [&again, &once] {
+            assert_eq!(instance.set_real("contact[1].gap", 0.0), OK);
+            assert_eq!(instance.set_string("ground.record", &record), OK);
+            instance.start();
+        }
+        let references: Vec<u32> = fmu.reals(&Causality::Parameter).iter().map(|name| fmu.vr(name)).collect();
+        let mut run = Vec::new();
+        for k in 0..10 {
+            let values = again.reals(&references).unwrap();
+            assert_eq!(again.set_reals(&references, &values), OK, "{:?}", again.log());
+            assert_eq!(again.set_string("ground.record", &record), OK, "{:?}", again.log());
+            run.extend(again.run(f64::from(k) * 0.1, 0.1, 1));
+        }
+        assert_eq!(run, once.run(0.0, 0.1, 10));
+        assert!(references.len() > 10 && once.integer("impacts") > 0);
+    }
+}
+
+#[test]
+fn where_one_parameter_would_change_after_the_initialisation_nothing_does() {
+    for fmu in Fmu::both(RECORD_SCENE) {
+        let (record, gap) = (fmu.vr("ground.record"), fmu.vr("contact[1].gap"));
+        let restitution = (fmu.vr("contact[1].restitution"), 0.5_f64);
+        let refused = |set: &dyn Fn(&Instance<'_>) -> c_int, name: &str| {
+            let instance = fmu.instance();
+            assert_eq!(instance.set_real("contact[1].gap", 0.0), OK);
+            instance.start();
+            let before = instance.outputs();
+            assert_eq!(set(&instance), ERROR, "{name}");
+            let expected = format!("{name}: a fixed parameter can only be set before the end of initialisation");
+            assert!(instance.only_error().ends_with(&expected), "{name}");
+            assert_eq!(instance.reals(&[gap, restitution.0]), Ok(vec![0.0, restitution.1]));
+            assert_eq!((instance.string("ground.record"), instance.outputs()), (String::new(), before));
+        };
+        let pair =
+            |gap_m: f64, e: f64| move |instance: &Instance<'_>| instance.set_reals(&[gap, restitution.0], &[gap_m, e]);
+        refused(&pair(-0.0, restitution.1), "contact[1].gap");
+        refused(&pair(0.0, restitution.1.next_up()), "contact[1].restitution");
+        refused(&|instance| instance.set_string("ground.record", "record.csv"), "ground.record");
+        let both = |instance: &Instance<'_>| instance.set_strings(&[record; 2], &["", "record.csv"]);
+        refused(&both, "ground.record");
     }
 }
 

@@ -3,7 +3,7 @@
 mod fmi3;
 mod golden;
 
-use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, package};
+use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, numbers_only, package};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
 use pounding::FmiVersion;
 use pounding::description::Package;
@@ -16,8 +16,10 @@ fn describe(scene_text: &str) -> ModelDescription {
 #[test]
 fn another_importer_finds_it_valid() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT, LINKED] {
-        for version in FmiVersion::ALL {
-            assert_eq!(problems(&package(scene).model_description(version), version), [""; 0]);
+        for scene in [scene.to_owned(), numbers_only(scene)] {
+            for version in FmiVersion::ALL {
+                assert_eq!(problems(&package(&scene).model_description(version), version), [""; 0]);
+            }
         }
     }
 }

@@ -88,6 +88,8 @@ fn changes() -> Vec<Row> {
         alone("fmi2Terminate", fmi2Terminate, "eeoeee"),
         alone("fmi2Reset", fmi2Reset, "oooooe"),
         alone("fmi2CancelStep", fmi2CancelStep, "eeeeee"),
+        alone("fmi2EnterEventMode", fmi2EnterEventMode, "eeeeee"),
+        alone("fmi2EnterContinuousTimeMode", fmi2EnterContinuousTimeMode, "eeeeee"),
         row("fmi2Reset: a thousand times", "oooooe", |t| {
             (0..1000).map(|_| t.alone(fmi2Reset)).max().unwrap_or_default()
         }),

@@ -125,6 +125,7 @@ fn reals() -> Vec<Row> {
         one("left.force[1]", -0.0, SET),
         one("left.force[1]", 5e-324, SET),
         one("right.mass[1]", 4.0, SET_PARAMETER),
+        one("right.mass[1]", 3.65, SET), // as it is
     ];
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         rows.push(one("left.force[1]", value, NEVER));
@@ -156,7 +157,7 @@ fn strings() -> Vec<Row> {
     let long: &'static [u8] = vec![b'r'; 1 << 20].leak();
     let deep: &'static [u8] = "../".repeat(100_000).into_bytes().leak();
     vec![
-        one("empty: that of the FMU", SET_PARAMETER, b""),
+        one("empty: that of the FMU, as it is", SET, b""),
         one("a file that there is not", NEVER, b"no/such/file.csv"),
         one("a directory", NEVER, b"/"),
         one("a device without end", NEVER, b"/dev/zero"),

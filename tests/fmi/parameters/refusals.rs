@@ -103,7 +103,7 @@ fn nothing_can_be_set_after_initialisation_but_the_inputs() {
             instance.start();
             let status = match variable.variableType.name() {
                 "Real" => instance.set_real(name, 0.5),
-                "String" => instance.set_string(name, ""),
+                "String" => instance.set_string(name, "other.csv"),
                 // SAFETY: of both: a live instance, one reference and one value.
                 "Integer" => unsafe { fmi2SetInteger(instance.component, &fmu.vr(name), 1, &1) },
                 // SAFETY: as above.

@@ -71,6 +71,23 @@ fn motion_does_not_jump_where_a_soft_contact_begins() {
     assert_eq!(instance.real("time"), time);
 }
 
+#[test]
+fn a_parameter_that_is_set_to_what_it_is_leaves_the_event_to_the_master() {
+    let fmu = Fmu::v3(SCENE);
+    let (again, once) = (started(&fmu), started(&fmu));
+    for instance in [&again, &once] {
+        to_event(instance, 0.0, 1.0);
+    }
+    let before = again.outputs();
+    assert_eq!(again.set_real("contact[1].gap", 0.002), OK, "{:?}", again.log());
+    assert_eq!(again.outputs(), before);
+    for instance in [&again, &once] {
+        instance.calls(&[fmi3EnterEventMode]);
+    }
+    assert_eq!(again.outputs(), once.outputs());
+    assert_ne!(again.outputs(), before);
+}
+
 /// A step ends where a link begins to slip and where it sticks: its force does not jump there, and a slip is seen from the
 /// event on.
 #[test]

@@ -74,9 +74,17 @@ fn keys() {
     let dotted = edited("stop_time = 20.0", "a.b = 1");
     assert_eq!(messages(&dotted), [message("a = a", "")]);
     expect(&[
-        ("energy = true", "work = true", &["outputs.work = true: expected a known key (energy, peaks)"]),
+        ("energy = true", "work = true", &["outputs.work = true: expected a known key (energy, peaks, numbers_only)"]),
         ("energy = true", "energy = \"yes\"", &["outputs.energy = \"yes\": expected true or false"]),
         ("energy = true", "peaks = 1", &["outputs.peaks = 1: expected true or false"]),
+        ("energy = true", "numbers_only = \"real\"", &["outputs.numbers_only = \"real\": expected true or false"]),
+        (
+            "energy = true",
+            "number_only = true",
+            &[
+                "outputs.number_only = true: expected a known key (energy, peaks, numbers_only); did you mean numbers_only?",
+            ],
+        ),
         ("floor_forces = true", "floor_forces = 1", &["inputs.floor_forces = 1: expected true or false"]),
         (
             "floor_forces = true",

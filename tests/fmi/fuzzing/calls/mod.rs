@@ -12,7 +12,8 @@ mod v3;
 
 use crate::linked::*;
 use pounding::FmiVersion;
-use pounding::variables::{Settings, Slot, Table, Type, Value};
+use pounding::variables::{Settings, Slot, Table, Type};
+use std::collections::HashMap;
 use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 use std::rc::Rc;
@@ -120,11 +121,13 @@ struct Known {
     /// Since a fresh instance, with what its master has chosen (`v3.rs`).
     acts: Option<Vec<Act>>,
     choices: u8,
+    /// The parameters that have been set, by value reference.
+    parameters: HashMap<u32, f64>,
 }
 
 impl Known {
     fn fresh(choices: u8) -> Known {
-        Known { model: Model::NEW, acts: Some(Vec::new()), choices }
+        Known { model: Model::NEW, acts: Some(Vec::new()), choices, parameters: HashMap::new() }
     }
 }
 
@@ -228,18 +231,26 @@ impl Session {
         let vr = u32::from(argument) % (table.time_reference() + 1);
         let is_finite = how < 240;
         let factor = if is_finite { 1.0 + f64::from(how / 20) / 100.0 } else { f64::NAN };
-        let (value, phases): (f64, &[Phase]) = match table.row(vr).map(|row| row.slot) {
-            Some(Slot::Input(_)) => (3.0 * factor, self.functions.to_set),
-            Some(Slot::Parameter(parameter)) => match self.shared.defaults.read(parameter) {
+        let default = match table.row(vr).map(|row| row.slot) {
+            Some(Slot::Parameter(parameter)) => self.shared.defaults.read(parameter).real(),
+            _ => None,
+        };
+        let (value, phases): (f64, &[Phase]) = match (table.row(vr).map(|row| row.slot), default) {
+            (Some(Slot::Input(_)), _) => (3.0 * factor, self.functions.to_set),
+            (_, Some(default)) => {
                 // Restitutions and tolerances have little room.
-                Value::Real(default) => (default / factor, &[Instantiated, Initialization]),
-                _ => (0.0, &[]),
-            },
+                let (value, now) = (default / factor, self.known.parameters.get(&vr).copied().unwrap_or(default));
+                let is_same = value.to_bits() == now.to_bits();
+                (value, if is_same { self.functions.to_set } else { &[Instantiated, Initialization] })
+            }
             _ => (0.0, &[]),
         };
         let expected = if is_finite { self.is_in(phases) } else { ERROR };
         let set = self.functions.common.set_reals;
-        self.act(&format!("set {vr} to {value}"), expected, move |c| set(c, &[vr], &[value]));
+        let is_done = self.act(&format!("set {vr} to {value}"), expected, move |c| set(c, &[vr], &[value]));
+        if is_done && default.is_some() {
+            self.known.parameters.insert(vr, value);
+        }
     }
 
     fn record(&mut self, slot: usize) {
