@@ -144,6 +144,8 @@ impl<'t> SampleBlock<'t> {
 struct Channel<'t> {
     /// As its header calls it, `Chan  2:  90 Deg`; empty where it says nothing.
     label: String,
+    /// As a comment codes it, `HNZ`; empty where none does.
+    code: String,
     number: Option<usize>,
     about: String,
     block: SampleBlock<'t>,
@@ -226,6 +228,7 @@ impl<'t> Channel<'t> {
             number: header::channel_number(&label),
             about: about.join(", "),
             label,
+            code: header.iter().find_map(|(_, line)| channel_code(line)).unwrap_or_default(),
             block,
             line,
             reals: real_header(header),
@@ -234,7 +237,9 @@ impl<'t> Channel<'t> {
     }
 
     fn component(&self) -> Component {
-        Component::new(self.number.unwrap_or(0), self.label.as_str())
+        let parts = [self.label.as_str(), &self.code];
+        let name = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
+        Component::new(self.number.unwrap_or(0), name)
     }
 
     /// s from sample to sample.
@@ -303,4 +308,10 @@ fn real_header(header: &[(usize, &str)]) -> Vec<f64> {
     let count = header[place].1.split_whitespace().next().and_then(|count| count.parse().ok()).unwrap_or(0);
     let lines = header[place + 1..].iter().map(|(_, line)| columns.values(line, fortran_number));
     lines.flatten().map_while(Result::ok).take(count).collect()
+}
+
+/// `|<SCNL>BMR.BNZ.AK.--`: station, channel, network and location.
+fn channel_code(line: &str) -> Option<String> {
+    let (_, codes) = line.split_once("<SCNL>")?;
+    codes.split('.').nth(1).map(excerpt)
 }

@@ -401,6 +401,9 @@ fn cosmos_volume_2() {
     assert_eq!(read(None, lines.concat()).record.times, found.record.times);
     let unnumbered = read(None, cosmos(1, "acceleration", COSMOS_DATA).replace("Chan   1: 90 deg", "Chan   ?:Other "));
     assert_eq!(unnumbered.channels, ["Chan   ?: Other"]);
+    let coded = cosmos(1, "acceleration", COSMOS_DATA).replace("| RcrdId: see", "|<SCNL>BMR.BNZ.AK.-- see");
+    let coded = read(None, coded.replace("Chan   1: 90 deg", "Chan   ?:Other "));
+    assert_eq!((coded.record.component.as_str(), coded.record.is_vertical()), ("Chan   ?: Other, BNZ", true));
     // Other networks: a value a line, another unit.
     let single =
         COSMOS_DATA.lines().next().unwrap().replace("(8f10.5)", "(1E15.6)").replace("cm/sec2(04)", "cm/s^2 (4)");
