@@ -106,6 +106,11 @@ pub(super) fn channel(line: &str) -> Option<String> {
     is_number.then(|| excerpt(&format!("{name}: {}", rest.trim())))
 }
 
+/// The direction behind `COMP`, where a file has one component.
+pub(super) fn direction(line: &str) -> Option<String> {
+    after(line, "COMP ").map(first_word).filter(|word| !word.is_empty()).map(excerpt)
+}
+
 /// The number in such a label.
 pub(super) fn channel_number(label: &str) -> Option<usize> {
     let digits = label.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit);

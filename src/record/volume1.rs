@@ -66,9 +66,10 @@ fn component(place: usize, head: &Header<'_>) -> Component {
     if let Some(label) = head.lines.iter().find_map(|(_, line)| header::channel(line)) {
         return Component::new(header::channel_number(&label).unwrap_or(place + 1), label);
     }
-    let name = head.word("COMP ").map_or("", |(_, name)| name);
+    let name = head.lines.iter().find_map(|(_, line)| header::direction(line)).unwrap_or_default();
     let is_numbered = is_bhrc(head) && name.ends_with(&(place + 1).to_string());
-    Component::new(place + 1, if is_numbered { name.trim_end_matches(|c: char| c.is_ascii_digit()) } else { name })
+    let name = if is_numbered { name.trim_end_matches(|c: char| c.is_ascii_digit()) } else { &name };
+    Component::new(place + 1, name)
 }
 
 /// What stands before the position of the station, or in the line below it.

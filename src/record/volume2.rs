@@ -142,7 +142,7 @@ impl<'t> SampleBlock<'t> {
 
 /// A channel with a block of acceleration.
 struct Channel<'t> {
-    /// As its header calls it, `Chan  2:  90 Deg`; empty where it says nothing.
+    /// As its header calls it, `Chan  2:  90 Deg`, and `S05W` of USC; empty where it says nothing.
     label: String,
     /// As a comment codes it, `HNZ`; empty where none does.
     code: String,
@@ -217,7 +217,8 @@ fn is_end(line: &str) -> bool {
 
 impl<'t> Channel<'t> {
     fn new(header: &[(usize, &str)], block: SampleBlock<'t>, line: usize) -> Channel<'t> {
-        let label = header.iter().find_map(|(_, line)| header::channel(line)).unwrap_or_default();
+        let label = header.iter().find_map(|(_, line)| header::channel(line));
+        let label = label.or_else(|| header.iter().find_map(|(_, line)| header::direction(line))).unwrap_or_default();
         let station = header.iter().find(|(_, line)| {
             let line = line.trim_start().to_ascii_lowercase();
             line.starts_with("station ") || line.starts_with("statn ")

@@ -195,7 +195,7 @@ fn the_real_record_of_the_project() {
     assert_eq!((record.times[102], record.accelerations[102], record.peak()), (2.04, -3.12656, 3.12656));
 }
 
-fn is_sound(record: &Record) -> bool {
+pub(crate) fn is_sound(record: &Record) -> bool {
     let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
     record.times.len() >= 2
         && record.times.len() == record.accelerations.len()

@@ -306,6 +306,9 @@ fn csmip_as_it_is_found() {
     let ten = file.replace("(8f10.3)", "(10f8.3)");
     let ten = ten.split("     1.500").next().unwrap().to_owned() + &"-987.125".repeat(10) + "\n";
     assert_eq!(read(None, ten.replace("112345.678", "-987.125")).record.accelerations, [-9.87125; 10]);
+    // USC's call the direction otherwise.
+    let of_usc = file.replace("Chan  1: 180 Deg", "COMP  UP        ");
+    assert_eq!((read(None, &of_usc).record.component.as_str(), read(None, of_usc).record.is_vertical()), ("UP", true));
     // USC's do not always say the unit of the samples, but that of their peak.
     let silent = file.replace("sec, in cm/sec2. (8f10.3)", "SEC.").replace("cm/sec/sec", "CMS/SEC/SEC");
     assert_eq!(read(None, silent).record, plain);
@@ -409,6 +412,8 @@ fn cosmos_volume_2() {
         COSMOS_DATA.lines().next().unwrap().replace("(8f10.5)", "(1E15.6)").replace("cm/sec2(04)", "cm/s^2 (4)");
     let single = single + "\n" + &"  -2.500000E-05\n".repeat(10);
     let single = cosmos(1, "acceleration", &single).replace("-987.000 cm/s^2", "-999.000 cm/s^2");
+    // That before the correction is another one.
+    let single = single.replace("Uncor max =    0.000  ", "Uncor max =    0.167 g");
     assert_eq!(read(None, single).record.accelerations, [-2.5e-7; 10], "-999 is no peak");
     let in_g = COSMOS_DATA.replace("cm/sec2(04)", "g(02)");
     let in_g = cosmos(1, "acceleration", &in_g).replace("-987.000 cm/s^2", "-987.000 g     ");

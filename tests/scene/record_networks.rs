@@ -1,6 +1,8 @@
 //! Records of networks that have a format of their own, in the exact layout of each with numbers of our own: values by hand.
 
+use super::record::is_sound;
 use pounding::record::{Accelerogram, Column, Format, RecordOptions};
+use proptest::prelude::*;
 
 fn wanting(wanted: &str) -> RecordOptions {
     let column = match wanted {
@@ -539,6 +541,10 @@ fn csmnc() {
     let unit = "line 11: UNIT: CM/SEC: expected a unit of acceleration, CM/SEC/SEC";
     assert_eq!(says("CM/SEC/SEC", "CM/SEC"), [unit]);
     assert_eq!(says("2.000000E+0", "2.0000o0E+0"), ["line 17: 2.0000o0E+0: expected a number"]);
+    let without_blank = CSMNC.replace("CSMNC\n\n", "CSMNC\n");
+    assert_eq!(read("", &without_blank).record, found.record);
+    let wrong = without_blank.replace("2.000000E+0", "2.0000o0E+0");
+    assert_eq!(refused("", wrong), ["line 16: 2.0000o0E+0: expected a number"]);
     let interval = "line 12: EQUALLY SPACED INTERVALS OF 0.000: expected a number > 0";
     assert_eq!(says("OF:  0.005", "OF:  0.000"), [interval]);
 }
@@ -743,6 +749,40 @@ fn what_is_told_apart_and_refused() {
     assert_eq!(refused("", spectra), [told]);
     let usace = " A HOUSE\n NO OF POINTS=  4, UNITS=CM/SEC**2, CM/SEC, AND CM\n   1.00   2.00   3.00   4.00\n";
     assert!(refused("", usace)[0].starts_with("USACE, acceleration, velocity and displacement one after the other"));
+}
+
+/// All of them, with one component.
+fn all() -> [String; 11] {
+    let texts = [SMC, GEONET, FILM, USC, BHRC, UNCORRECTED, CSMNC, AFAD, CWA, UNAM].map(str::to_owned);
+    let [a, b, c, d, e, f, g, h, i, j] = texts;
+    [a, b, c, d, e, f, g, h, i, j, smc_pairs()]
+}
+
+/// Wherever a file has been cut off, no sample is missing in what is read.
+#[test]
+fn cut_files_are_refused() {
+    for text in all() {
+        let text = text.replace("      12      12      12 ", "      12       0       0 ");
+        let whole = read("", &text).record;
+        for end in 0..text.len() {
+            if let Ok(found) = Accelerogram::parse("download", &wanting(""), &text.as_bytes()[..end]) {
+                assert_eq!(found.record.times, whole.times, "{}", &text[..end]);
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_line_in_them_is_read_or_refused(which in 0_usize..11, line in 0_usize..80, other in "[-+ 0-9.eE/:=#*|A-Z]{0,40}") {
+        let text = all()[which].clone();
+        let lines = text.lines().enumerate().map(|(k, old)| if k == line { other.as_str() } else { old });
+        let text = lines.collect::<Vec<_>>().join("\n");
+        for wanted in ["", "2", "up"] {
+            let found = Accelerogram::parse("download", &wanting(wanted), text.as_bytes());
+            prop_assert!(found.as_ref().map_or(true, |found| is_sound(&found.record)));
+        }
+    }
 }
 
 /// What is announced is not believed: neither time nor memory goes with it.
