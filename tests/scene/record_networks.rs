@@ -251,6 +251,14 @@ fn geonet_that_is_refused() {
     );
 }
 
+/// A text with the 100 whole and 50 real numbers that stand between the words and the samples of a volume 1.
+fn with_numbers(text: &str) -> String {
+    let whole = format!("{}{}\n", format!("{}\n", "    0".repeat(16)).repeat(6), "    0".repeat(4));
+    let first = format!("      .040{}\n", "      .600".repeat(7));
+    let real = format!("{first}{}{}\n", format!("{}\n", "      .000".repeat(8)).repeat(5), "      .000".repeat(2));
+    text.replace("@numbers\n", &(whole + &real))
+}
+
 /// A channel of digitised film, as CSMIP and RENADIC hand it out: pairs of seven characters, which touch from 100 s on.
 const FILM: &str = "\
 UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/30/2011
@@ -266,20 +274,7 @@ INSTR PERIOD = 0.0195 SEC,  DAMPING =0.6500,  SENSITIVITY =2.508 VDC/G
 NO. OF POINTS =      7  RECORD LENGTH =100.010 SEC
 UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  = -1.250 G, AT 100.000 SEC
 RMS ACCEL OF COMPLETE RECORD = 0.005 G
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0
-      .040      .600      .600      .600      .600      .600      .600      .600
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-      .000      .000
+@numbers
   0.000  0.125  0.005 -0.500 99.995  0.250100.000-12.500100.003  1.000
 100.006 -0.001100.010  2.000
 /&  ----------  END OF DATA FOR CHANNEL 1  ----------
@@ -287,7 +282,8 @@ RMS ACCEL OF COMPLETE RECORD = 0.005 G
 
 fn film() -> String {
     let channel = |number: usize, name: &str, last: &str| {
-        FILM.replace("CHAN  1: EW", &format!("CHAN  {number}: {name}"))
+        with_numbers(FILM)
+            .replace("CHAN  1: EW", &format!("CHAN  {number}: {name}"))
             .replace("100.010  2.000", &format!("100.010  {last}"))
     };
     channel(1, "V ", "1.000") + &channel(2, "EW", "2.000") + &channel(3, "NS", "3.000")
@@ -317,7 +313,7 @@ fn volume_1_of_film() {
 
 #[test]
 fn volume_1_of_film_that_is_refused() {
-    let says = |from: &str, to: &str| refused("", FILM.replace(from, to));
+    let says = |from: &str, to: &str| refused("", with_numbers(FILM).replace(from, to));
     let count = |said: usize, found: usize| {
         vec![format!("line 11: NO. OF POINTS = {said}: expected {found}, the number of samples in the file")]
     };
@@ -330,9 +326,9 @@ fn volume_1_of_film_that_is_refused() {
     let unit = "line 12: UNITS OF UNCOR ACCEL ARE SEC AND COUNTS.     M...: expected SEC AND G/10 or another unit of acceleration";
     assert_eq!(says("G/10.", "COUNTS."), [unit]);
     let cut = "volume 1: cut off within its headers: expected 100 whole and 50 real numbers below the words";
-    assert_eq!(refused("", &FILM[..FILM.find("    0    0").unwrap()])[0], cut);
+    assert_eq!(refused("", FILM.split("@numbers").next().unwrap())[0], cut);
     assert_eq!(
-        refused("", &FILM[..60]),
+        refused("", &with_numbers(FILM)[..60]),
         [
             "volume 1: no NO. OF POINTS: expected it in the header, with a number of samples",
             "volume 1: no UNITS: expected it in the header, with SEC AND G/10",
@@ -355,35 +351,22 @@ INSTR PERIOD =  .037 SEC  DAMPING =   .540  SENSITIVITY =   1.68CM/G    69
 NO. OF POINTS =      6      DURATION =    .021 SEC                      50
 UNITS ARE SEC AND G/10                                                  22
 RMS ACCLN. OF COMPLETE RECORD =     .143 G/10                           45
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0
-      .040      .600      .600      .600      .600      .600      .600      .600
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-      .000      .000
+@numbers
     .000   .125   .004  -.500   .008   .250   .013 -1.250   .017   .375
     .021   .625
 ";
 
 #[test]
 fn volume_1_of_usc() {
-    let found = read("", USC);
+    let found = read("", with_numbers(USC));
     assert_eq!(found.record.times, [0.0, 0.004, 0.008, 0.013, 0.017, 0.021]);
     assert_eq!(found.record.accelerations, tenths(&[0.125, -0.5, 0.25, -1.25, 0.375, 0.625]));
     assert_eq!((found.format, found.about.as_str()), (Format::Volume1, "12 MAIN ST., NOWHERE, CA, S05W"));
-    reads_the_same(USC);
-    assert_eq!(read("", USC.to_owned() + "VLEE $\n").record, found.record, "words behind the last sample");
-    assert!(read("", USC.replace("COMP S05W", "COMP  UP ")).record.is_vertical());
+    reads_the_same(&with_numbers(USC));
+    assert_eq!(read("", with_numbers(USC) + "VLEE $\n").record, found.record, "words behind the last sample");
+    assert!(read("", with_numbers(USC).replace("COMP S05W", "COMP  UP ")).record.is_vertical());
     let count = "line 11: NO. OF POINTS = 6: expected 5, the number of samples in the file";
-    assert_eq!(refused("", USC.replace("    .021   .625\n", "")), [count]);
+    assert_eq!(refused("", with_numbers(USC).replace("    .021   .625\n", "")), [count]);
 }
 
 /// A component of BHRC, whose header has lost what stood beyond 71 characters.
@@ -452,20 +435,7 @@ Station No. 89146   40.941N, 123.633W      Etna  s/n 2500  (3 Chns of  3 at Sta)
 Chan  1: 360 Deg                                                                
 No. of Points =     10  Record Length =   .050 sec   at 200 Samples/sec         
 Units of uncor data are sec and g .        Max  =  -.250 g , at    .010 sec.    
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0    0
-    0    0    0    0
-      .040      .600      .600      .600      .600      .600      .600      .600
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-           .000      .000      .000      .000      .000      .000      .000      .000
-      .000      .000
+@numbers
     10 Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)  
   .015625  .125000 -.250000  .000001 -.000002  .031250  .062500 -.125000
   .000000  .007812
@@ -474,8 +444,8 @@ Units of uncor data are sec and g .        Max  =  -.250 g , at    .010 sec.
 
 #[test]
 fn volume_1_of_csmip() {
-    let file = UNCORRECTED.to_owned()
-        + &UNCORRECTED.replace("Chan  1: 360 Deg", "Chan  2: Up     ").replace(".007812", ".003906");
+    let file = with_numbers(UNCORRECTED)
+        + &with_numbers(UNCORRECTED).replace("Chan  1: 360 Deg", "Chan  2: Up     ").replace(".007812", ".003906");
     let found = read("", &file);
     let in_g = [0.015625, 0.125, -0.25, 0.000001, -0.000002, 0.03125, 0.0625, -0.125, 0.0, 0.007812];
     assert_eq!(found.record.accelerations, in_g.map(|value| value * 9.80665));
@@ -484,18 +454,21 @@ fn volume_1_of_csmip() {
     assert_eq!(found.channels, ["Chan  1: 360 Deg", "Chan  2: Up"]);
     assert_eq!(read("Up", &file).record.accelerations[9], 0.003906 * 9.80665);
     reads_the_same(&file);
-    let says = |from: &str, to: &str| refused("", UNCORRECTED.replace(from, to));
+    let says = |from: &str, to: &str| refused("", with_numbers(UNCORRECTED).replace(from, to));
     let count = "line 21: points of acceleration = 10: expected 8, the number of samples in the file";
     assert_eq!(says("  .000000  .007812\n", ""), [count]);
     let peak = "line 6: a peak of -0.15 g: expected that of the samples, 0.25 g";
     assert_eq!(says("=  -.250 g", "=  -.150 g"), [peak]);
     let rate = "line 21: points at 0: expected the s from sample to sample";
     assert_eq!(says("points at 200", "points at 0  "), [rate]);
-    let older = UNCORRECTED.replace(
+    let older = with_numbers(UNCORRECTED).replace(
         "Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)",
         "POINTS OF ACCEL DATA EQUALLY SPACED AT .005 SEC.  (UNITS: G)",
     );
-    assert_eq!((read("", &older).record, read("", older).format), (read("", UNCORRECTED).record, Format::Volume1));
+    assert_eq!(
+        (read("", &older).record, read("", older).format),
+        (read("", with_numbers(UNCORRECTED)).record, Format::Volume1)
+    );
 }
 
 /// A file of the network of China.
@@ -753,7 +726,7 @@ fn what_is_told_apart_and_refused() {
 
 /// All of them, with one component.
 fn all() -> [String; 11] {
-    let texts = [SMC, GEONET, FILM, USC, BHRC, UNCORRECTED, CSMNC, AFAD, CWA, UNAM].map(str::to_owned);
+    let texts = [SMC, GEONET, FILM, USC, BHRC, UNCORRECTED, CSMNC, AFAD, CWA, UNAM].map(with_numbers);
     let [a, b, c, d, e, f, g, h, i, j] = texts;
     [a, b, c, d, e, f, g, h, i, j, smc_pairs()]
 }
@@ -792,9 +765,9 @@ fn huge_counts_are_only_compared() {
     for (text, count) in [
         (SMC.to_owned(), "        10 "),
         (GEONET.to_owned(), "    12 "),
-        (FILM.to_owned(), "      7 "),
+        (with_numbers(FILM), "      7 "),
         (BHRC.to_owned(), "     12 "),
-        (UNCORRECTED.to_owned(), "    10 Acc"),
+        (with_numbers(UNCORRECTED), "    10 Acc"),
         (CSMNC.to_owned(), "  10 "),
         (AFAD.to_owned(), ": 4\n"),
         (CWA.to_owned(), " 0.08"),
