@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 python3 -m venv python
-python/bin/pip install --quiet cofmupy==1.0.0 pythonfmu==0.7.0
+python/bin/pip install --quiet cofmupy==1.0.0 pythonfmu==0.6.3
 cat > echo.py <<'PYTHON'
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 

@@ -21,6 +21,7 @@ __all__ = [
     "simulate",
     "spare",
     "summary",
+    "with_numbers_only",
 ]
 
 __version__: str

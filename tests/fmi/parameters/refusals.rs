@@ -102,7 +102,7 @@ fn nothing_can_be_set_after_initialisation_but_the_inputs() {
             let is_input = variable.causality == Causality::Input;
             instance.start();
             let status = match variable.variableType.name() {
-                "Real" => instance.set_real(name, 0.5),
+                "Real" => instance.set_real(name, 0.53),
                 "String" => instance.set_string(name, "other.csv"),
                 // SAFETY: of both: a live instance, one reference and one value.
                 "Integer" => unsafe { fmi2SetInteger(instance.component, &fmu.vr(name), 1, &1) },
