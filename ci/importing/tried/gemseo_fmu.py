@@ -2,11 +2,11 @@
 
 NAME = "gemseo-fmu"
 PACKAGES = ["gemseo-fmu==3.1.1", "fmpy==0.3.19"]
-TAKE = "either version; numbers only where all outputs are read by name in FMI 2.0"
+TAKE = "either version; of 2.0 numbers only with `do_step`, and where `input_names` is left out"
 KNOW = (
     "Sets every parameter before the initialisation and once more after it, which is allowed to the value that it has. Name "
-    "`input_names`: by default it takes all parameters. With `do_step` an input gets, at the beginning of a step, its value of "
-    "the end of that step"
+    "`input_names`: by default it takes all parameters, texts included. With `do_step` an input gets, at the beginning of a "
+    "step, its value of the end of that step"
 )
 
 
