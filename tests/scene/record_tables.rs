@@ -234,6 +234,8 @@ fn numbers_alone() {
         "1,-2,3,0.5\n",
         "1, -2, 3,\n0.5,\n",
         "a motion\nby somebody unknown\n1 -2\n3 0.5\n",
+        "a motion\nby hand\n1 -2\n3 0.5\n",
+        "El Centro\n1 -2\n3 0.5\n",
         "4 0.02\n1\n-2\n3\n0.5\n",
         "my motion\n4 0.0200\n1 -2 3\n0.5\n",
         "my motion\nNPTS= 4, DT= 0.02 SEC\n1 -2 3\n0.5\n",
@@ -354,6 +356,13 @@ fn one_of_several_columns() {
         (&[0.0, 0.5, 1.0, 1.5][..], &[10.0, -20.0, 30.0, -40.0][..])
     );
     assert_eq!(said(&of(0.5, Unit::Metres), rows).unwrap().record.times.len(), 12, "without a column: one sequence");
+    for names in ["H1 H2 V", "north east up", "CH1 CH2 CH3", "long tran vert", "X Y Z", "p,q,r"] {
+        let found = said(
+            &of(0.5, Unit::Metres),
+            format!("{names}\n{}", if names.contains(',') { rows.replace(' ', ",") } else { rows.to_owned() }),
+        );
+        assert!(found.is_err_and(|error| error.contains("expected column = ...")), "{names}");
+    }
     let which = said(&of(0.5, Unit::Metres), "N-S  E-W  U-D\n".to_owned() + rows).unwrap_err();
     assert_eq!(
         which,

@@ -1,6 +1,7 @@
 //! Names of columns, and what they say is in them.
 
 use super::layout::Separators;
+use crate::record::components::is_vertical;
 use crate::record::numbers::fortran_number;
 use crate::record::unit::Unit;
 
@@ -10,18 +11,55 @@ pub(super) fn split(line: &str, separators: Separators, columns: usize) -> Optio
     let clean =
         |names: Vec<&str>| names.into_iter().map(|name| name.trim().trim_matches('"').to_owned()).collect::<Vec<_>>();
     let by_gaps = || line.split("  ").map(str::trim).filter(|name| !name.is_empty()).collect();
+    let by_words = Some(words(&line)).filter(|names| are_of_columns(names)).unwrap_or_default();
     let ways: [Vec<String>; 5] = [
         if separators.column == ' ' { Vec::new() } else { clean(separators.fields(&line)) },
         clean(line.split('\t').collect()),
         clean(line.split([',', ';']).collect()),
         clean(by_gaps()),
-        words(&line),
+        by_words,
     ];
     ways.into_iter().find(|names| names.len() == columns && names.iter().all(|name| is_name(name)))
 }
 
 fn is_name(name: &str) -> bool {
     !name.is_empty() && fortran_number(name).is_none()
+}
+
+/// Whether words speak of columns rather than make a title: one is a kind of column, a direction, a number or a unit in brackets.
+fn are_of_columns(names: &[String]) -> bool {
+    const DIRECTIONS: [&str; 22] = [
+        "ns",
+        "ew",
+        "n",
+        "s",
+        "e",
+        "w",
+        "north",
+        "south",
+        "east",
+        "west",
+        "x",
+        "y",
+        "z",
+        "l",
+        "t",
+        "long",
+        "tran",
+        "trans",
+        "radial",
+        "transverse",
+        "fn",
+        "fp",
+    ];
+    names.iter().any(|name| {
+        let word: String = name.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect();
+        let is_known = !matches!(kind(name), Kind::Unknown) && name.len() > 1;
+        is_known
+            || is_vertical(name)
+            || DIRECTIONS.contains(&word.as_str())
+            || name.contains(|c: char| c.is_ascii_digit() || "[(_".contains(c))
+    })
 }
 
 /// Words, with the brackets behind them: `Time (s)`, `a [m s-2]`.

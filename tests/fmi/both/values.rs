@@ -275,6 +275,35 @@ fn another_record_runs_instead() {
     }
 }
 
+/// A table in braces, as a scene has it, says what the file does not.
+#[test]
+fn another_record_may_be_a_table() {
+    for fmu in Fmu::both(RECORD_SCENE) {
+        let place = |name: &str| fmu.directory.path().join(name);
+        let (bare, whole) = (place("bare.txt"), place("whole.csv"));
+        fs::write(&bare, "by hand\n1 -2\n3 0.5\n").unwrap();
+        let rows: String = [1.0, -2.0, 3.0, 0.5]
+            .iter()
+            .zip(["0", "0.25", "0.5", "0.75"])
+            .map(|(a, t)| format!("{t},{}\n", a * 9.80665))
+            .collect();
+        fs::write(&whole, format!("time_s,accel_m_s2\n{rows}")).unwrap();
+        let table = |unit: &str| format!("{{ file = '{}', step = 0.25, unit = \"{unit}\" }}", bare.display());
+        let run = |record: &str| {
+            let instance = fmu.instance();
+            assert_eq!(instance.set_string("ground.record", record), OK, "{:?}", instance.log());
+            instance.start();
+            assert_eq!(instance.string("ground.record"), record);
+            instance.run(0.0, 0.1, 10)
+        };
+        assert_eq!(run(&table("g")), run(whole.to_str().unwrap()));
+        let instance = fmu.instance();
+        assert_eq!(instance.set_string("ground.record", &table("kg")), ERROR);
+        let message = instance.only_error();
+        assert!(message.contains("ground.record.unit = \"kg\": expected a unit of acceleration"), "{message}");
+    }
+}
+
 #[test]
 fn an_empty_path_brings_the_first_record_back() {
     for fmu in Fmu::both(RECORD_SCENE) {
