@@ -78,9 +78,11 @@ fn factors_at_brackets(line: &str) -> impl Iterator<Item = SaidUnit> {
         let (unit, after) = inside.split_once([')', ']'])?;
         let before = before.split([',', ';', '\t', ')', ']']).next_back()?;
         let after = after.split([',', ';', '\t', '(', '[']).next()?.split_whitespace().next();
-        // `x 1000 [g]` and `10^-3 (g)`, but not a name such as `090 (g)`.
-        let mut last = before.split_whitespace().rev().take(2);
-        let has_factor = after.is_some_and(is_factor) || last.any(is_factor);
+        // `x 1000 [g]` and `10^-3 (g)`, but not a name such as `090 (g)` or `Acc X (g)`.
+        let mut last = before.split_whitespace().rev();
+        let (last, second) = (last.next().unwrap_or_default(), last.next().unwrap_or_default());
+        let is_name = last == "x" || fortran_number(last).is_some() && !is_factor(second);
+        let has_factor = after.is_some_and(is_factor) || !is_name && (is_factor(last) || is_factor(second));
         let factor = format!("{} ({unit}) {}", before.trim(), after.unwrap_or_default());
         (has_factor && of_phrase(unit).is_some()).then(|| SaidUnit::Scaled(factor.trim().to_owned()))
     })
@@ -172,32 +174,41 @@ fn of_word(word: &str) -> Option<Unit> {
     ends.filter_map(|(_, end)| Unit::read(end).filter(|unit| end.contains(['2', '/']) || !may_be_name(unit))).next()
 }
 
-/// s, where a line says it: `dt = 0.005`, `DT: 0.01 SEC`, `time step 0.02`, `sampling interval = 10 ms`, `200 Hz`.
+/// Words that announce the step, s, and those that announce the samples in a second, Hz.
+const STEPS: [&str; 8] =
+    ["dt", "delta t", "time step", "timestep", "step", "sampling interval", "time interval", "interval"];
+const RATES: [&str; 5] = ["sampling rate", "sampling frequency", "sampling freq", "sample rate", "fs"];
+
+/// s, where a line says it: `dt = 0.005`, `DT: 0.01 SEC`, `sampling interval = 10 ms`, `Sampling rate: 200 Hz`.
 pub(super) fn step(line: &str) -> Option<f64> {
     let line = line.to_lowercase();
-    for key in ["dt", "delta t", "time step", "timestep", "step", "sampling interval", "time interval", "interval"] {
-        let places = line.match_indices(key).map(|(place, _)| (&line[..place], &line[place + key.len()..]));
-        let is_key = |(before, _): &(&str, &str)| !before.ends_with(|c: char| c.is_alphanumeric());
-        for (_, after) in places.filter(is_key) {
-            let after = after.trim_start();
-            let (in_brackets, after) = match after.strip_prefix(['(', '[']).and_then(|rest| rest.split_once([')', ']']))
-            {
-                Some((inside, rest)) => (inside.trim(), rest),
-                None => ("", after),
-            };
-            let after = after.trim_start_matches(|c: char| c.is_whitespace() || ":=".contains(c));
-            let end = after.find(|c: char| !(c.is_ascii_digit() || ".+-ed".contains(c))).unwrap_or(after.len());
-            let (number, unit) = after.split_at(end);
-            let unit = if in_brackets.is_empty() { unit.trim_start() } else { in_brackets };
-            let factor = if unit.starts_with("ms") { 1e-3 } else { 1.0 };
-            let value = fortran_number(number.trim_end_matches(['e', 'd', '.']));
-            if let Some(step) = value.filter(|step| *step > 0.0 && step.is_finite()) {
-                // A division is rounded once.
-                return Some(if factor < 1.0 { step / 1e3 } else { step });
-            }
-        }
-    }
-    None
+    let steps = STEPS.iter().find_map(|key| number_behind(&line, key));
+    // A division is rounded once.
+    let step = steps.map(|(step, unit)| if unit.starts_with("ms") { step / 1e3 } else { step });
+    step.or_else(|| {
+        let (rate, unit) = RATES.iter().find_map(|key| number_behind(&line, key))?;
+        (unit.is_empty() || unit.starts_with("hz") || unit.starts_with("s")).then_some(1.0 / rate)
+    })
+}
+
+/// The number > 0 behind a key of a line in lower case, and what stands behind it or between them in brackets. A mark stands
+/// between, `:` or `=` or such a unit, but for `dt`: `Step 2 of 3` says nothing.
+fn number_behind<'t>(line: &'t str, key: &str) -> Option<(f64, &'t str)> {
+    let places = line.match_indices(key).map(|(place, _)| (&line[..place], &line[place + key.len()..]));
+    let is_key = |(before, _): &(&str, &str)| !before.ends_with(|c: char| c.is_alphanumeric());
+    places.filter(is_key).find_map(|(_, after)| {
+        let after = after.trim_start();
+        let (unit, rest) = match after.strip_prefix(['(', '[']).and_then(|rest| rest.split_once([')', ']'])) {
+            Some((inside, rest)) => (inside.trim(), rest),
+            None => ("", after),
+        };
+        let number = rest.trim_start_matches(|c: char| c.is_whitespace() || ":=".contains(c));
+        let has_mark = key == "dt" || !unit.is_empty() || rest.trim_start().starts_with([':', '=']);
+        let end = number.find(|c: char| !(c.is_ascii_digit() || ".+-ed".contains(c))).unwrap_or(number.len());
+        let (number, behind) = number.split_at(end);
+        let value = fortran_number(number.trim_end_matches(['e', 'd', '.'])).filter(|value| *value > 0.0)?;
+        (has_mark && value.is_finite()).then_some((value, if unit.is_empty() { behind.trim_start() } else { unit }))
+    })
 }
 
 /// Samples and step where a line holds nothing else, or their names as well: `4684 0.0100`, `400 0.01 NPTS, DT`.

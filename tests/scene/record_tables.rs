@@ -77,6 +77,7 @@ fn two_columns_in_every_form() {
         ("Time (s) Acceleration (ft/s2)", 0.3048),
         ("Time (sec) Acceleration (in/sec2)", 0.0254),
         ("Time (s) Acceleration (G/10)", G / 10.0),
+        ("time s Acc X (g)", G),
         // A unit, and a G that is a name.
         ("Station: Building G, roof\nTime (s) Acceleration (m/s2)", 1.0),
         ("Gal, K. 2003\nTime (s) Acceleration (m/s2)", 1.0),
@@ -242,6 +243,10 @@ fn numbers_alone() {
         "dt = 0.02\n1\n-2\n3\n0.5\n",
         "m/s2; dt = 0.02\n1\n-2\n3\n0.5\n",
         "Time step: 20 ms\n1\n-2\n3\n0.5\n",
+        "Time step (s): 0.02\n1\n-2\n3\n0.5\n",
+        "Sampling rate: 50 Hz\n1\n-2\n3\n0.5\n",
+        "fs = 50\n1\n-2\n3\n0.5\n",
+        "Step 2 of 3, at intervals of weeks\n1\n-2\n3\n0.5\n",
         "4\n1\n-2\n3\n0.5\n",
         "4 0.02\n1\n-2\n3\n0.5\n*** End data ***\n",
     ] {
