@@ -254,6 +254,6 @@ def read_record(record: Record, key: str) -> _native.Record:
     except (TypeError, ValueError):
         arrays = []
     if [array.ndim for array in arrays] != [1, 1]:
-        expected = "a path, a dict with a file, or a pair of arrays, times in s and accelerations in m/s2"
+        expected = "a path or a pair of arrays, times in s and accelerations in m/s2, or a dict with a file"
         raise ValueError(f"{key}: expected {expected}")
     return _native.Record.of(arrays[0], arrays[1], key)
