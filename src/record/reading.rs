@@ -228,6 +228,7 @@ impl Reading {
     /// What has been found, where nothing behind it can be read.
     pub(super) fn stop(self) -> RecordError {
         let Reading { mut problems, more, .. } = self;
+        debug_assert!(!problems.is_empty(), "a record is refused without a word");
         match more {
             0 => {}
             1 => problems.push("there is 1 more problem".to_owned()),

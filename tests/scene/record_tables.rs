@@ -343,7 +343,7 @@ fn one_of_several_columns() {
     }
     assert_eq!(said(&column(3), FOUR).unwrap_err(), "line 1: Velocity [m/s]: expected an acceleration");
     // Three components: none is taken without a word.
-    let which = "expected column = ..., or a name that ends with it, one of #2 N-S, #3 E-W, #4 U-D";
+    let which = "expected column = ... or # behind the file's name, one of #2 N-S, #3 E-W, #4 U-D";
     assert_eq!(refused(THREE), [format!("line 3: 4 columns of numbers: {which}")]);
     for (options, factor, vertical) in
         [(column(2), 1.0, false), (named("N-S"), 1.0, false), (named("ew"), 10.0, false), (column(4), 100.0, true)]
@@ -371,7 +371,7 @@ fn one_of_several_columns() {
     let which = said(&of(0.5, Unit::Metres), "N-S  E-W  U-D\n".to_owned() + rows).unwrap_err();
     assert_eq!(
         which,
-        "line 2: 3 columns of numbers: expected column = ..., or a name that ends with it, one of #1 N-S, #2 E-W, #3 U-D, or \
+        "line 2: 3 columns of numbers: expected column = ... or # behind the file's name, one of #1 N-S, #2 E-W, #3 U-D, or \
          skip_lines = 1 where they are one sequence"
     );
 }

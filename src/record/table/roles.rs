@@ -41,16 +41,12 @@ pub(super) fn find(table: &Table<'_>, options: &RecordOptions, reading: &mut Rea
     let is_counter = kinds.first() == Some(&Kind::Counter);
     let first = first_column(table);
     let time = match kinds.first() {
+        _ if columns == 1 => false,
         Some(Kind::Time) => true,
         Some(Kind::Counter) => false,
-        _ => columns > 1 && is_time(&first, step, columns),
+        _ => is_time(&first, step, columns),
     };
     match (time, step, columns) {
-        (true, step, 1) => {
-            let said = step.is_none().then_some("one column of times")?;
-            refuse(table, reading, format!("{said}: expected accelerations"));
-            None
-        }
         (false, None, _) => {
             refuse(table, reading, without_step(table, columns, is_counter));
             None
@@ -218,7 +214,7 @@ fn only(
         table,
         reading,
         format!(
-            "{count} columns of numbers: expected column = ..., or a name that ends with it, one of {listed}{or_sequence}"
+            "{count} columns of numbers: expected column = ... or # behind the file's name, one of {listed}{or_sequence}"
         ),
     );
     None
