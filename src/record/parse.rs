@@ -58,7 +58,8 @@ impl Accelerogram {
     /// The same, where no other component has been asked for than the one that there is.
     fn of_column(self, options: &RecordOptions, number: usize) -> Result<Accelerogram, RecordError> {
         let Some(wanted) = &options.column else { return Ok(self) };
-        let only = [Component::new(number, self.record.component.clone())];
+        // It is the first of its file, wherever its column stands.
+        let only = [1, number].map(|number| Component::new(number, self.record.component.clone()));
         match components::named(&only, wanted) {
             Some(_) => Ok(self),
             None => Err(RecordError::new(format!("#{wanted}: expected a file with channels, this is {}", self.format))),

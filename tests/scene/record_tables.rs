@@ -411,7 +411,11 @@ fn a_known_format_says_unit_and_step_itself() {
         said(&of(0.1, Unit::Gravity), csv).unwrap_err(),
         "the file says m/s2: expected unit = \"m/s2\", not g, or none\nsamples 0.5 s apart: expected step = 0.5, not 0.1, or none"
     );
-    assert_eq!(said(&column(2), csv).unwrap().record.accelerations, [1.0, 2.0]);
+    // The second column, the first component.
+    for number in [1, 2] {
+        assert_eq!(said(&column(number), csv).unwrap().record.accelerations, [1.0, 2.0]);
+        assert_eq!(said(&column(number), "t a[g]\n0 1\n1 2\n").unwrap().record.accelerations, [G, 2.0 * G]);
+    }
     assert_eq!(said(&column(3), csv).unwrap_err(), "#3: expected a file with channels, this is CSV");
     let at2 = "PEER\nSomewhere\nACCELERATION IN UNITS OF G\nNPTS= 2, DT= .01 SEC\n 1.0 -2.0\n*** End data ***\n";
     assert_eq!(said(&of(0.01, Unit::Gravity), at2).unwrap().record.accelerations, [G, -2.0 * G]);

@@ -170,6 +170,8 @@ fn column(
     let columns = components_of(table, from);
     let kind = |column: &Component| kinds.get(column.number - 1).copied().unwrap_or(Kind::Unknown);
     let wanted = match &options.column {
+        // The first component of a file that has one.
+        Some(Column::Number(1)) if columns.len() == 1 => from,
         Some(Column::Number(number)) if *number <= from && *number > 0 => {
             let what = if kinds.first() == Some(&Kind::Counter) { "the count" } else { "the time" };
             refuse(table, reading, format!("#{number} is {what}: expected one of {}", components::listed(&columns)));
