@@ -66,7 +66,7 @@ mod tests {
         assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
         assert!(Arc::ptr_eq(&first, &known.read(file("copy.csv", PULSE)).unwrap()));
         // Another channel is another record: there is none here, and what is known stays.
-        assert!(known.read(RecordFile::named("one.csv#1", PULSE.to_vec())).is_err());
+        assert!(known.read(RecordFile::named("one.csv#3", PULSE.to_vec())).is_err());
         assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
         // The same file with something else in it.
         assert_eq!((first.peak(), known.read(file("one.csv", OTHER)).unwrap().peak()), (3.0, 4.0));
