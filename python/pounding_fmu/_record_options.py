@@ -32,4 +32,8 @@ def of(options: argparse.Namespace) -> dict[str, Any]:
 def with_options(files: Sequence[str | os.PathLike[str]] | None, options: argparse.Namespace) -> list[Any] | None:
     """The records of a command, with what its options say about all of them."""
     said = of(options)
+    if files is None and said:
+        given = ", ".join("--" + name.replace("_", "-") for name in said)
+        wanted = "expected --records, which they are about; of the record of a scene its ground.record says that"
+        raise ValueError(f"{given}: {wanted}")
     return None if files is None else [{"file": os.fspath(file), **said} if said else file for file in files]

@@ -91,19 +91,19 @@ def main(arguments: list[str]) -> int:
     if options.plot:
         require("matplotlib", "plot")
     _native.spare([("-o", options.output), ("--plot", options.plot)], [], [options.file])
-    said = _record_options.of(options) | {"remove_mean": None}
-    record = read_native({"file": options.file, **said}, "record")
-    motion = Motion(*record.samples())
+    source = {"file": options.file, **_record_options.of(options)}
+    removes_mean = source.pop("remove_mean", False)
+    record = read_native(source, "record")
+    removed = record.mean() if removes_mean else None
+    shown = read_native(source | {"remove_mean": True}, "record") if removes_mean else record
+    motion = Motion(*shown.samples())
     if (peak := float(abs(motion.acceleration).max())) > LARGEST:
         raise ValueError(f"{options.file}: acceleration {peak:g} m/s2: expected at most {LARGEST:g} m/s2")
     print(options.file)
-    print("\n".join(origin({"file": options.file, **said}, record)))
-    removed = record.mean() if options.remove_mean else None
-    if removed is not None:
-        motion = Motion(*read_native({"file": options.file, **said, "remove_mean": True}, "record").samples())
+    print("\n".join(origin(source, record)))
     print("\n".join([*described(motion, mean_of(record, removed)), "", *spectrum(motion)]))
     # The line of the mean says what is to be said about it.
-    warn(f"record = {options.file!r}: {text}" for text in record.warnings() if not text.startswith("its mean is"))
+    warn(f"record = {options.file!r}: {text}" for text in shown.warnings() if not text.startswith("its mean is"))
     if options.output:
         write(options.output, motion, options.file, removed)
         print(f"\n{options.output}: {len(motion.time)} samples, time_s,accel_m_s2")
@@ -127,7 +127,7 @@ def parser() -> argparse.ArgumentParser:
 
 def origin(source: dict[str, Any], record: _native.Record) -> list[str]:
     """What the file says of itself, a line each."""
-    form, unit, about, channels = _native.Record.about({name: said for name, said in source.items() if said is not None}, "record")
+    form, unit, about, channels = _native.Record.about(source, "record")
     lines = [("format", f"{form}, in {unit}"), *([("about", about)] if about else [])]
     lines += [("component", record.component())] if record.component() else []
     lines += [(f"channel {number}", name) for number, name in enumerate(channels, 1)]

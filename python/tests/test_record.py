@@ -80,6 +80,10 @@ def test_a_mean_that_is_not_0_is_told_and_taken_away_on_demand(tmp_path):
     less = pounding_fmu.read_record(tmp_path / "less.csv")[1]
     assert fmus.same_bits(less, acceleration - np.float64(sum(map(Fraction, acceleration.tolist())) / 200))
     assert "without its mean of" in (tmp_path / "less.csv").read_text().splitlines()[0]
+    # All of one sign before, which nothing is said about any more.
+    (tmp_path / "above.csv").write_text("time_s,accel_m_s2\n" + "".join(f"{t!r},{9 + a!r}\n" for t, a in zip(time.tolist(), acceleration.tolist())))
+    assert "of one sign" in run("record", "above.csv", cwd=tmp_path).stderr
+    well("record", "above.csv", "--remove-mean", cwd=tmp_path)
 
 
 WITHOUT = tomllib.loads(fmus.without_record())
@@ -152,6 +156,9 @@ def test_no_record_is_scaled_by_its_offset(tmp_path):
         assert done.returncode == 1 and "its mean is 0.4 m/s2" in done.stderr and "--remove-mean" in done.stderr, done.stderr
         done = run(*told, "--remove-mean", cwd=tmp_path)
         assert done.returncode == 0, done.stderr
+    # Of another record than that of the scene nothing can be said here.
+    done = run("gap", "scene.toml", "--remove-mean", "--step", "0.1", cwd=tmp_path)
+    assert done.returncode == 1 and "--step, --remove-mean: expected --records" in done.stderr, done.stderr
     source = {"file": str(tmp_path / "offset.csv")}
     scene = WITHOUT | {"ground": {"record": source, "pga": 2.0}}
     assert "remove_mean" in "".join(pounding_fmu.problems(scene))

@@ -46,7 +46,7 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
     let peaks = components.iter().map_while(|component| peak(&head, &component.name)).collect();
     let about = head.about(&["STATION ID", "PLACE", "EARTHQUAKE DATE"]);
     let first = head.lines.len() + 1;
-    let count = Some((line, SAMPLES, count));
+    let count = (line, SAMPLES, count);
     let told = Told {
         format: Format::Afad,
         about,

@@ -7,7 +7,7 @@ use super::options::Column;
 const SHOWN: usize = 20;
 
 /// A component as its file calls it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Component {
     /// Empty where the file says nothing.
     pub name: String,
@@ -19,14 +19,9 @@ impl Component {
     pub(super) fn new(number: usize, name: impl Into<String>) -> Component {
         Component { number, name: name.into() }
     }
-
-    /// Whether its name says that it is vertical: `Up`, `U-D`, `Z`, `HNZ`, `vertical`.
-    pub(super) fn is_vertical(&self) -> bool {
-        is_vertical(&self.name)
-    }
 }
 
-/// Whether the name of a component says that it is vertical.
+/// Whether the name of a component says that it is vertical: `Up`, `U-D`, `Z`, `HNZ`, `vertical`.
 pub(super) fn is_vertical(name: &str) -> bool {
     let words = name.split(|c: char| !c.is_alphanumeric() && c != '-').filter(|word| !word.is_empty());
     words.map(str::to_lowercase).any(|word| {
@@ -41,7 +36,7 @@ pub(super) fn is_vertical(name: &str) -> bool {
 /// The place of the one that is wanted, or of the first horizontal one.
 pub(super) fn choose(components: &[Component], wanted: Option<&Column>) -> Result<usize, RecordError> {
     let Some(wanted) = wanted else {
-        return Ok(components.iter().position(|component| !component.is_vertical()).unwrap_or(0));
+        return Ok(components.iter().position(|component| !is_vertical(&component.name)).unwrap_or(0));
     };
     named(components, wanted).ok_or_else(|| RecordError::new(none_such(components, wanted)))
 }

@@ -50,7 +50,7 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
         return Err(reading.stop());
     };
     let peaks = components.iter().map_while(|component| peak(&head, &component.name)).collect();
-    let count = Some((line, "RecordLength times SampleRate", (length * rate).round() as usize));
+    let count = (line, "RecordLength times SampleRate", (length * rate).round() as usize);
     let about = head.about(&["StationCode", "StationName", "StartTime"]);
     let first = head.lines.len() + 1;
     let told = Told {

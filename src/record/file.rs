@@ -69,18 +69,21 @@ impl RecordFile {
     /// # Errors
     /// As [`super::Record::parse`].
     pub fn parse(&self) -> Result<Accelerogram, RecordError> {
+        Accelerogram::parse(&self.name, &self.wanted()?, &self.bytes)
+    }
+
+    /// What is wanted of it, by its name and otherwise.
+    ///
+    /// # Errors
+    /// Two columns.
+    pub(super) fn wanted(&self) -> Result<RecordOptions, RecordError> {
         if let (Some(first), Some(second)) = (&self.column, &self.options.column)
             && first != second
         {
             return Err(RecordError::new(format!("#{first} in its name and column = {second}: expected one of them")));
         }
-        Accelerogram::parse(&self.name, &self.wanted(), &self.bytes)
-    }
-
-    /// What is wanted of it, by its name and otherwise.
-    pub(super) fn wanted(&self) -> RecordOptions {
         let options = self.options.clone();
-        RecordOptions { column: self.column.clone().or(options.column), ..options }
+        Ok(RecordOptions { column: self.column.clone().or(options.column), ..options })
     }
 }
 

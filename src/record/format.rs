@@ -36,6 +36,13 @@ pub enum Format {
     Columns,
 }
 
+impl Format {
+    /// Whether its files are made for several channels, so that the only one of a file is named as well.
+    pub(super) fn has_channels(self) -> bool {
+        matches!(self, Format::Csmip | Format::Cosmos | Format::Volume1 | Format::Geonet)
+    }
+}
+
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

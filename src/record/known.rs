@@ -33,7 +33,7 @@ impl KnownRecords {
     /// # Errors
     /// As [`Record::parse`].
     pub fn read(&self, file: RecordFile) -> Result<Arc<Record>, RecordError> {
-        let options = file.wanted();
+        let options = file.wanted()?;
         let latest = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same = |known: &&KnownRecord| known.options == options && known.bytes == file.bytes;
         if let Some(known) = latest().iter().find(is_same) {
@@ -51,6 +51,7 @@ impl KnownRecords {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::record::Column;
 
     const PULSE: &[u8] = b"time_s,accel_m_s2\n0,0\n0.1,3\n0.3,0\n";
     const OTHER: &[u8] = b"time_s,accel_m_s2\n0,0\n0.1,4\n0.3,0\n";
@@ -71,6 +72,14 @@ mod tests {
         // The same file with something else in it.
         assert_eq!((first.peak(), known.read(file("one.csv", OTHER)).unwrap().peak()), (3.0, 4.0));
         assert!(!Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()), "there is room for one");
+    }
+
+    #[test]
+    fn a_contradiction_is_refused_though_the_file_is_known() {
+        let known = KnownRecords::new(1);
+        known.read(file("one.csv#1", PULSE)).unwrap();
+        let second = RecordOptions { column: Some(Column::Number(2)), ..RecordOptions::default() };
+        assert!(known.read(file("one.csv#1", PULSE).with(&second)).is_err());
     }
 
     #[test]

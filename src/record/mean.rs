@@ -1,7 +1,7 @@
 //! The mean of the samples: whether it is an offset of the instrument, and the record without it.
 //!
-//! K-NET, KiK-net and other networks hand out what the sensor gave, about a level that is not 0: between 2 % of the peak and many
-//! times the motion. Scaled to a peak such a record is scaled by its offset, and buildings lean under it from the beginning.
+//! K-NET, KiK-net and other networks hand out what the sensor gave, about a level that is not 0 and may be many times the motion.
+//! Scaled to a peak such a record is scaled by its offset, and buildings lean under it from the beginning.
 
 use super::accelerogram::Record;
 use crate::numerics::sum::Sum;

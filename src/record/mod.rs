@@ -22,6 +22,11 @@
 //! | UNAM \[Unam2004\] | `ARCHIVO ESTANDAR DE ACELERACION` | those of `UNIDADES DE LOS DATOS` | from 0, every `INTERVALO DE MUESTREO` | `unam.rs` |
 //! | columns of text | rows of numbers | those that a header or a comment names, or the user | any that increase strictly, or by a step | `table.rs` |
 //!
+//! A file that is no text is told in `binary.rs`, a format that is known and not read in `unread.rs`. The readers share
+//! `reading.rs` (samples, what is wrong with them, what the header says of them), `header.rs` (a word behind a key), `numbers.rs`
+//! (numbers as Fortran writes them), `said.rs` (units and steps in words) and `components.rs` (which of several). `options.rs` is
+//! what a user says about a file, `file.rs` its name with what stands behind `#`, `known.rs` what has been read lately.
+//!
 //! Byte order mark, UTF-16, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end
 //! are accepted in all. CSV and columns have comments, lines that start with `#`. Columns are set apart by semicolons, commas or
 //! blanks; beside semicolons and blanks decimals may have a comma. Of several components the one is read that is named behind the
@@ -60,7 +65,6 @@ mod known;
 mod mean;
 mod numbers;
 mod options;
-mod others;
 mod parse;
 mod reading;
 mod said;
@@ -68,6 +72,7 @@ mod smc;
 mod table;
 mod unam;
 mod unit;
+mod unread;
 mod volume1;
 mod volume2;
 

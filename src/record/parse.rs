@@ -5,8 +5,8 @@ use super::components::{self, Component};
 use super::error::RecordError;
 use super::file::RecordFile;
 use super::options::RecordOptions;
-use super::reading::{Reading, excerpt, numbered, on_line, text_of};
-use super::{afad, at2, binary, csmnc, csv, cwa, esm, geonet, knet, others, smc, table, unam, volume1, volume2};
+use super::reading::{Reading, excerpt, numbered, on_line, other_interval, text_of};
+use super::{afad, at2, binary, csmnc, csv, cwa, esm, geonet, knet, smc, table, unam, unread, volume1, volume2};
 use crate::figures::plain;
 
 impl Accelerogram {
@@ -38,12 +38,11 @@ impl Accelerogram {
             problems
                 .push(format!("the file says {}: expected unit = \"{}\", not {unit}, or none", self.unit, self.unit));
         }
-        if let Some(step) = options.step {
-            let between = self.record.times.windows(2).map(|pair| pair[1] - pair[0]);
-            if let Some(found) = between.into_iter().find(|between| (between - step).abs() > 0.02 * step) {
-                let (found, step) = (plain(found), plain(step));
-                problems.push(format!("samples {found} s apart: expected step = {found}, not {step}, or none"));
-            }
+        if let Some(step) = options.step
+            && let Some(found) = other_interval(&self.record.times, step)
+        {
+            let (found, step) = (plain(found), plain(step));
+            problems.push(format!("samples {found} s apart: expected step = {found}, not {step}, or none"));
         }
         if problems.is_empty() { Ok(self) } else { Err(RecordError { problems }) }
     }
@@ -69,7 +68,7 @@ impl Accelerogram {
 
 /// What a file in one of the formats holds.
 fn of_format(name: &str, options: &RecordOptions, text: &str) -> Result<Accelerogram, RecordError> {
-    if let Some(told) = others::told(text) {
+    if let Some(told) = unread::told(text) {
         return Err(RecordError::new(told));
     }
     let wanted = options.column.as_ref();
@@ -133,7 +132,7 @@ impl Record {
     /// 1e12 s, fewer than two samples, a number of samples other than the one announced, a channel that is not there.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
         let file = RecordFile::named(name, Vec::new());
-        Ok(Accelerogram::parse(&file.name, &file.wanted(), bytes)?.record)
+        Ok(Accelerogram::parse(&file.name, &file.wanted()?, bytes)?.record)
     }
 
     /// A record that has come another way than by [`Record::parse`], if it could have been read from a file.

@@ -208,8 +208,7 @@ impl Reading {
         let Said { format, unit, about, components, chosen } = said;
         let mut record = self.complete()?;
         record.component = components.get(chosen).map(|one| one.name.clone()).unwrap_or_default();
-        let of_channels = [Format::Csmip, Format::Cosmos, Format::Volume1, Format::Geonet];
-        let has_channels = components.len() > 1 || of_channels.contains(&format);
+        let has_channels = components.len() > 1 || format.has_channels();
         let names = components.into_iter().map(|component| component.name);
         let channels = if has_channels { names.collect() } else { Vec::new() };
         Ok(Accelerogram { format, unit, about, channels, record })
@@ -261,6 +260,13 @@ impl Said {
 /// A problem on a line, counted from 1.
 pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
     format!("line {number}: {problem}")
+}
+
+/// s, the first interval between times that is another than a step, by more than times that were rounded.
+pub(super) fn other_interval(times: &[f64], step: f64) -> Option<f64> {
+    const ROUNDED: f64 = 0.02;
+    let mut between = times.windows(2).map(|pair| pair[1] - pair[0]);
+    between.find(|between| (between - step).abs() > ROUNDED * step)
 }
 
 /// The lines of a text, counted from 1.

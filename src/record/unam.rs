@@ -54,7 +54,7 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
     let peaks = channels(&head, PEAK).into_iter().map_while(number).collect();
     let duration = of_chosen(DURATION).and_then(number);
     let about = head.about(&["CLAVE DE LA ESTACION", "NOMBRE DE LA ESTACION", "FECHA DEL SISMO [GMT]"]);
-    let count = Some((line, SAMPLES, count));
+    let count = (line, SAMPLES, count);
     let first = ruler + 1;
     let told = Told {
         format: Format::Unam,

@@ -36,7 +36,8 @@ pub(super) fn has_title(text: &str) -> bool {
 
 pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram, RecordError> {
     let Found { channels, others } = Found::look(text);
-    let components: Vec<Component> = channels.iter().map(Channel::component).collect();
+    let components: Vec<Component> =
+        channels.iter().enumerate().map(|(place, channel)| channel.component(place)).collect();
     let chosen = choose(&components, wanted).ok_or_else(|| RecordError::new(unknown(&components, wanted, others)))?;
     let found = &channels[chosen];
     let mut reading = Reading::with_capacity(0);
@@ -237,10 +238,10 @@ impl<'t> Channel<'t> {
         }
     }
 
-    fn component(&self) -> Component {
+    fn component(&self, place: usize) -> Component {
         let parts = [self.label.as_str(), &self.code];
         let name = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
-        Component::new(self.number.unwrap_or(0), name)
+        Component::new(self.number.unwrap_or(place + 1), name)
     }
 
     /// s from sample to sample.

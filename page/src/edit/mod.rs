@@ -10,11 +10,11 @@ mod storeys;
 
 use crate::message::Refusal;
 use path::{Step, in_table, steps};
-
-pub use path::table_of;
 use pounding::scene::Scene;
 use serde_json::Value as Json;
 use toml_edit::DocumentMut;
+
+pub use path::table_of;
 
 /// The text with these changes, one after the other.
 pub fn edited(scene: &[u8], changes: &[(String, Json)]) -> Result<String, Refusal> {

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 def named(records: str | os.PathLike[str] | Iterable[Record] | Mapping[str, Record]) -> Mapping[str, Record]:
     """Records by what messages call them: those that come without a name are paths, or dicts with a file."""
-    if isinstance(records, (str, os.PathLike)) or isinstance(records, Mapping) and isinstance(records.get("file"), str):
+    is_dict = isinstance(records, Mapping) and isinstance(records.get("file"), (str, os.PathLike))
+    if is_dict or isinstance(records, (str, os.PathLike)):
         records = [records]
     found: dict[str, Record] = {}
     for key in records:

@@ -2,6 +2,7 @@
 
 use crate::record::numbers::{fortran_number, numbers_of};
 use crate::record::reading::numbered;
+use std::collections::BTreeMap;
 
 /// Columns and words beyond these are not looked at.
 const MOST_FIELDS: usize = 200;
@@ -96,11 +97,12 @@ impl Layout {
     fn under(separators: Separators, text: &str, skipped: usize) -> Option<((usize, usize), Layout)> {
         let rows = rows(text, skipped).filter_map(|(line, row)| Some((line, separators.numbers(row)?.len())));
         let rows: Vec<(usize, usize)> = rows.take(LOOKED_AT).collect();
-        let with = |count: usize| rows.iter().filter(|(_, found)| *found == count).count();
+        let mut with = BTreeMap::new();
+        rows.iter().for_each(|(_, count)| *with.entry(*count).or_insert(0) += 1);
         // Of as many rows of each the wider ones: the others are the ends of theirs.
-        let columns = rows.iter().map(|(_, count)| *count).max_by_key(|count| (with(*count), *count))?;
+        let (columns, most) = with.into_iter().max_by_key(|(count, rows)| (*rows, *count))?;
         let first = rows.iter().find(|(_, count)| *count == columns)?.0;
-        Some(((rows.len(), with(columns)), Layout { separators, first, columns }))
+        Some(((rows.len(), most), Layout { separators, first, columns }))
     }
 
     /// The rows from the first one on, each with its line.

@@ -28,36 +28,13 @@ fn is_name(name: &str) -> bool {
 
 /// Whether words speak of columns rather than make a title: one is a kind of column, a direction, a number or a unit in brackets.
 fn are_of_columns(names: &[String]) -> bool {
-    const DIRECTIONS: [&str; 22] = [
-        "ns",
-        "ew",
-        "n",
-        "s",
-        "e",
-        "w",
-        "north",
-        "south",
-        "east",
-        "west",
-        "x",
-        "y",
-        "z",
-        "l",
-        "t",
-        "long",
-        "tran",
-        "trans",
-        "radial",
-        "transverse",
-        "fn",
-        "fp",
-    ];
+    const DIRECTIONS: &str = "ns ew n s e w north south east west x y z l t long tran trans radial transverse fn fp";
     names.iter().any(|name| {
         let word: String = name.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect();
         let is_known = !matches!(kind(name), Kind::Unknown) && name.len() > 1;
         is_known
             || is_vertical(name)
-            || DIRECTIONS.contains(&word.as_str())
+            || DIRECTIONS.split(' ').any(|direction| direction == word)
             || name.contains(|c: char| c.is_ascii_digit() || "[(_".contains(c))
     })
 }

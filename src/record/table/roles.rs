@@ -6,14 +6,12 @@ use super::names::{self, Kind};
 use crate::figures::plain;
 use crate::record::components::{self, Component};
 use crate::record::options::{Column, RecordOptions};
-use crate::record::reading::{Reading, excerpt, on_line};
+use crate::record::reading::{Reading, excerpt, on_line, other_interval};
 use crate::record::said;
 
 /// Rows from which on a first column that grows cannot be an acceleration.
 const ROWS_OF_TIMES: usize = 4;
 const LOOKED_AT: usize = 1000;
-/// Share of the step by which times that were rounded may be off it.
-const ROUNDED: f64 = 0.02;
 
 /// What the numbers are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,8 +128,8 @@ fn is_time(first: &[f64], step: Option<f64>, columns: usize) -> bool {
         // Two columns and nothing else: if they are wrong, that is said line by line.
         None => columns == 2 || grows && first.len() >= ROWS_OF_TIMES,
         Some(step) => {
-            let fits = first.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() <= ROUNDED * step);
-            grows && (first.len() >= ROWS_OF_TIMES || first.len() > 1 && fits)
+            let fits = || other_interval(first, step).is_none();
+            grows && (first.len() >= ROWS_OF_TIMES || first.len() > 1 && fits())
         }
     }
 }
@@ -228,9 +226,7 @@ fn refuse(table: &Table<'_>, reading: &mut Reading, problem: String) {
 
 /// Compares times that were read with a step.
 pub(super) fn check_step(step: f64, line: usize, reading: &mut Reading) {
-    let times = &reading.record.times;
-    let off = times.windows(2).map(|pair| pair[1] - pair[0]).find(|between| (between - step).abs() > ROUNDED * step);
-    if let Some(between) = off {
+    if let Some(between) = other_interval(&reading.record.times, step) {
         let problem = format!("times {} s apart: expected step = {} s, or none", plain(between), plain(step));
         reading.refuse(|| on_line(line, problem));
     }

@@ -23,7 +23,7 @@ pub(in crate::record) struct Told {
     /// s
     pub step: f64,
     /// Number of rows, with its line and its name.
-    pub count: Option<(usize, &'static str, usize)>,
+    pub count: (usize, &'static str, usize),
     /// Peak of each component, with its line; as many as are known.
     pub peaks: Vec<(usize, f64)>,
     /// Whether files repeat their last row, as often as they like.
@@ -45,16 +45,15 @@ impl Told {
         let columns = components.len() + usize::from(self.has_times);
         let separators = Separators { column: ' ', has_decimal_comma: false };
         let layout = Layout { separators, first: self.first, columns };
-        let announced = self.count.map(|(line, _, count)| Announced { line, count, step: None });
+        let (line, counted, count) = self.count;
+        let announced = Some(Announced { line, count, step: None });
         let table = Table { text, lines: Vec::new(), layout, names: Vec::new(), names_line: 0, announced };
         let time = self.has_times.then_some(0);
         table.column(time, Some(self.step), components[chosen].number - 1, unit, &mut reading);
-        if let Some((line, name, count)) = self.count {
-            if self.repeats_last {
-                reading.drop_repeated(count);
-            }
-            reading.check_count(line, name, count);
+        if self.repeats_last {
+            reading.drop_repeated(count);
         }
+        reading.check_count(line, counted, count);
         if let Some((line, peak)) = self.peaks.get(chosen) {
             reading.check_peak(*line, *peak, unit);
         }

@@ -10,13 +10,11 @@ use crate::record::unit::Unit;
 impl Table<'_> {
     /// The unit that the header names for the column, that of the user where it names none.
     pub(super) fn unit(&self, options: &RecordOptions, roles: Option<&Roles>, reading: &mut Reading) -> Option<Unit> {
-        let own = match roles {
-            Some(Roles::Column { column, .. }) => {
-                self.names.get(*column).map(|name| said::units(name)).unwrap_or_default()
-            }
-            _ => Vec::new(),
+        let name = match roles {
+            Some(Roles::Column { column, .. }) => self.names.get(*column),
+            _ => None,
         };
-        let mut found = own;
+        let mut found = name.map_or_else(Vec::new, |name| said::units(name));
         if found.is_empty() {
             found = self.lines.iter().flat_map(|(_, line)| said::units(line)).collect();
         }
@@ -51,7 +49,7 @@ impl Table<'_> {
 
     fn refuse_unit(&self, count: usize, reading: &mut Reading) {
         let said = if count == 0 { "nothing says the unit of the accelerations" } else { "there are several units" };
-        let between = if self.layout.separators.column == ' ' { ' ' } else { self.layout.separators.column };
+        let between = self.layout.separators.column;
         let expected = if self.layout.columns == 2 {
             format!(
                 "expected unit = ... ({}), or one of these lines above the numbers: time_s{between}accel_m_s2 where they are in \
