@@ -5,7 +5,7 @@ PACKAGES = ["moo-sim-interface==0.4.0", "fmpy==0.3.20"]
 TAKE = "2.0, numbers only"
 KNOW = (
     "Sets and reads by `setReal` and `getReal` alone, FMI 2.0 only. The first 0.02 s of every run are left out of its results. "
-    "Its way `sync: true` does not come back on Linux: take `sync: false`"
+    "Its way `sync: true` ends in a NameError: take `sync: false`"
 )
 
 
