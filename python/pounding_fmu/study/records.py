@@ -10,13 +10,14 @@ from .. import _native
 from .._scenes import read_record, record_dict, warn
 
 if TYPE_CHECKING:
+    from typing import Any, TypeGuard
+
     from .._scenes import Record
 
 
 def named(records: str | os.PathLike[str] | Iterable[Record] | Mapping[str, Record]) -> Mapping[str, Record]:
     """Records by what messages call them: those that come without a name are paths, or dicts with a file."""
-    is_dict = isinstance(records, Mapping) and isinstance(records.get("file"), (str, os.PathLike))
-    if is_dict or isinstance(records, (str, os.PathLike)):
+    if isinstance(records, (str, os.PathLike)) or is_record_dict(records):
         records = [records]
     found: dict[str, Record] = {}
     for key in records:
@@ -31,6 +32,11 @@ def named(records: str | os.PathLike[str] | Iterable[Record] | Mapping[str, Reco
     if not found:
         raise ValueError("records: expected at least one")
     return found
+
+
+def is_record_dict(records: object) -> TypeGuard[Mapping[str, Any]]:
+    """One record with what is said of its file, not records by their names."""
+    return isinstance(records, Mapping) and isinstance(records.get("file"), (str, os.PathLike))
 
 
 def read_records(records: Mapping[str, Record], problems: list[str], is_scaled: bool = True) -> dict[str, _native.Record]:
