@@ -13,7 +13,7 @@ use pounding::scene::Yielding;
 struct Case {
     law: String,
     damping: &'static str,
-    /// Of both buildings. From 8 on contacts are followed floor by floor, from 41 on in windows of many modes.
+    /// Of both buildings. From 9 on contacts are followed floor by floor.
     storeys: usize,
     /// Without the account flights take a shorter way.
     energy: bool,
@@ -33,8 +33,6 @@ fn fingerprint(case: &Case) -> u64 {
         let yielding = |force: f64| Some(Yielding::new(vec![force; storeys], vec![0.05; storeys]));
         (scene.left.yielding, scene.right.yielding) = (yielding(4e4 * storeys as f64), yielding(8e4 * storeys as f64));
     }
-    // With peaks contacts of many storeys are followed floor by floor.
-    scene.peaks = storeys <= 9;
     scene.ground.record = Some("zigzag.csv".into());
     let samples: Vec<f64> = (0..400).map(|k| zigzag(k) / 4.0).collect();
     let mut run = Run::new(&scene, Some(&record(1.0 / 64.0, &samples)));

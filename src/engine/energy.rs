@@ -13,12 +13,11 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
 use crate::numerics::sum::Sum;
-use crate::structure::{Counts, FlightWork, LinearLoad, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
+use crate::structure::{Counts, FlightWork, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -195,7 +194,7 @@ impl System {
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
             Dense::Window(window, series) => {
-                self.integrate_window((base, inputs), (window, series), length, work, &mut done);
+                self.integrate_window(base, (window, series), length, work, &mut done);
             }
         }
         // Work of the floor forces at their values at the base; the quadratures add that of their change.
@@ -252,26 +251,17 @@ impl System {
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
-        (base, inputs): (&Base, &Inputs),
+        base: &Base,
         (window, series): (&Window, &MotionSeries),
         length: f64,
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        let free = FreeMotion::of(self, (base, inputs), series, work);
-        window.evaluate(self, free, length, MotionMut { q: &mut q, v: &mut v });
-        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
-        let mut interval = std::mem::take(&mut work.interval);
+        window.evaluate(self, (series, &mut work.powers), length, MotionMut { q: &mut work.q, v: &mut work.v });
         let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
-            let free = match self.flies_in_windows() {
-                true => FreeMotion::Flight(base, LinearLoad { load: &load, slope: &slope }, &mut interval),
-                false => FreeMotion::Series(series, powers),
-            };
-            window.evaluate(self, free, t, MotionMut { q, v });
+            window.evaluate(self, (series, powers), t, MotionMut { q, v });
         };
         self.integrate(base, motion, window.nodes(length), 0.0, work, done);
-        (work.interval, work.load, work.slope, work.q, work.v) = (interval, load, slope, q, v);
     }
 
     /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in

@@ -10,7 +10,6 @@ use crate::engine::onset::series::OnsetSeries;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::structure::{Motion, MotionMut, MotionSeries, exact_order, fly_in_one_series};
@@ -73,7 +72,7 @@ impl Step {
         Step {
             kind: StepKind::NotPlanned,
             planned: Planned::new(lanes, 0),
-            taylor: Solution::of_motion(if system.flies_in_windows() { 0 } else { lanes }),
+            taylor: Solution::of_motion(lanes),
             onset: OnsetSeries::default(),
             window: Box::default(),
         }
@@ -83,9 +82,7 @@ impl Step {
     pub(super) fn take_window(&mut self, other: &mut Step) {
         self.kind = other.kind;
         std::mem::swap(&mut self.window, &mut other.window);
-        if !self.taylor.series.is_empty() {
-            std::mem::swap(&mut self.taylor.series, &mut other.taylor.series);
-        }
+        std::mem::swap(&mut self.taylor.series, &mut other.taylor.series);
     }
 
     /// Whether the planned step is a flight.
@@ -130,50 +127,10 @@ impl Step {
                 series.evaluate(&work.powers, q, v);
             }
             Dense::Onset(onset) => onset.evaluate(elapsed / onset.scale, q, v),
-            Dense::Window(..) if self.evaluate_near_end(system, (base, inputs), elapsed, work, MotionMut { q, v }) => {}
             Dense::Window(window, series) => {
-                let free = FreeMotion::of(system, (base, inputs), series, work);
-                window.evaluate(system, free, elapsed, MotionMut { q, v });
+                window.evaluate(system, (series, &mut work.powers), elapsed, MotionMut { q, v });
             }
         }
-    }
-
-    /// Evaluates a window of many modes by the motion and the accelerations at its start or its end, if that is as near as
-    /// rounding puts the time of a sample; returns whether it did. Anywhere else that takes a flight of its own.
-    fn evaluate_near_end(
-        &self,
-        system: &System,
-        (base, inputs): (&Base, &Inputs),
-        elapsed: f64,
-        work: &mut Buffers,
-        MotionMut { q, v }: MotionMut,
-    ) -> bool {
-        // Its square is below rounding.
-        const NEAR: f64 = 1e-8;
-        let Step { planned, window, .. } = self;
-        let back = elapsed - planned.length;
-        let (time, is_start) = if elapsed < -back { (elapsed, true) } else { (back, false) };
-        // Written so that a NaN is not near.
-        let is_near = time.abs() * system.structure.fastest <= NEAR;
-        if !(system.flies_in_windows() && is_near) {
-            return false;
-        }
-        let from = if is_start { base.motion() } else { planned.motion() };
-        system.load(base, inputs, &mut work.load, &mut work.slope);
-        if !is_start {
-            work.load.iter_mut().zip(&work.slope).for_each(|(load, slope)| *load += slope * planned.length);
-        }
-        for (&p, (d, rate)) in window.contacts.iter().zip(window.solution.end).take(window.equation.closed) {
-            let contact = &base.contacts[p];
-            let force = if is_start { contact.present_force() } else { contact.branch().value(d, rate) };
-            system.push_apart_by(p, base.coordinates, force, &mut work.load);
-        }
-        system.accelerate(base.coordinates, from, &work.load, &mut work.node_q);
-        for (m, acceleration) in work.node_q.iter().enumerate() {
-            q[m] = from.q[m] + time * (from.v[m] + 0.5 * time * acceleration);
-            v[m] = from.v[m] + time * acceleration;
-        }
-        true
     }
 
     /// Evaluates a flight backwards from its planned end, under the load in `work`, if less than `NEARLY_OVER` of it is

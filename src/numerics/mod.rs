@@ -5,7 +5,6 @@
 //! same operations in the same order, so the same bits.
 
 pub(crate) mod complementarity;
-pub(crate) mod economization;
 pub(crate) mod identity;
 pub(crate) mod polynomial;
 pub(crate) mod powers;

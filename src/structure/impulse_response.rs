@@ -2,16 +2,14 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
-use super::mode_polynomials::{FURTHEST, POLYNOMIAL_TERMS, PolynomialMaker};
 use super::motion::MotionMut;
 use super::series::sums::sum_blocks;
 use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
-pub const RESPONSE_POWERS: usize = POLYNOMIAL_TERMS;
+pub const RESPONSE_POWERS: usize = 20;
 
-/// That of all modes, where damping couples none: a power series, or polynomials that are good up to some time, for
-/// which the quickest modes may be far too quick for a series of so few terms.
+/// That of all modes, where damping couples none.
 #[derive(Clone, Debug)]
 pub struct ImpulseResponse {
     lanes: usize,
@@ -19,14 +17,9 @@ pub struct ImpulseResponse {
     terms: Vec<f64>,
     /// 1/s.
     fastest: f64,
-    /// The time up to which polynomials are good, s; `None` of a power series.
-    longest: Option<f64>,
 }
 
 impl ImpulseResponse {
-    /// Largest (fastest rate) x (time) of polynomials.
-    pub const FURTHEST: f64 = FURTHEST;
-
     /// Of a structure; `None` where damping couples its modes.
     pub fn of(structure: &Structure) -> Option<ImpulseResponse> {
         if !structure.is_classical() {
@@ -44,33 +37,7 @@ impl ImpulseResponse {
                     -((k - 1.0) * structure.damping[m] * last[m] + structure.omega2[m] * before[m]) / (k * (k - 1.0));
             }
         }
-        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: None })
-    }
-
-    /// Polynomials that are good up to a time, s, where that is no more than [`ImpulseResponse::FURTHEST`] allows.
-    pub fn over(structure: &Structure, time: f64) -> Option<ImpulseResponse> {
-        // Written so that a NaN is no time.
-        let is_possible = time > 0.0 && structure.fastest * time <= FURTHEST;
-        if !structure.is_classical() || !is_possible {
-            return None;
-        }
-        let lanes = structure.lanes;
-        let mut terms = vec![0.0; RESPONSE_POWERS * lanes];
-        let maker = PolynomialMaker::new(time);
-        for m in 0..lanes {
-            let [_, response, ..] = maker.mode(structure.omega2[m], structure.damping[m]).of;
-            let mut unit = 1.0;
-            for (k, term) in response.iter().enumerate() {
-                terms[k * lanes + m] = term * unit;
-                unit /= time;
-            }
-        }
-        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: Some(time) })
-    }
-
-    /// The time up to which it is good, s, where it is no power series.
-    pub fn longest(&self) -> Option<f64> {
-        self.longest
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest })
     }
 
     /// Power k of all modes.
@@ -80,9 +47,6 @@ impl ImpulseResponse {
 
     /// How many powers are needed over a time, s, for a relative `remainder`; `None` where it is too long.
     pub fn powers(&self, time: f64, remainder: f64) -> Option<usize> {
-        if let Some(longest) = self.longest {
-            return (time <= longest).then_some(RESPONSE_POWERS);
-        }
         let angle = self.fastest * time;
         let (mut term, mut k) = (1.0, 1);
         while term > remainder {
@@ -108,17 +72,6 @@ impl ImpulseResponse {
             *kernel = (sum[0] + sum[2]) + (sum[1] + sum[3]);
         }
         kernel
-    }
-
-    /// A bound on the integral of the magnitude of the second derivative of a kernel over a time, s, 1/kg: a mode that
-    /// swings reverses its velocity, of at most 1, once in half a period, one that creeps loses it.
-    pub fn curvature(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
-        let of_mode = |m: usize| {
-            let omega = structure.omega2[m].sqrt();
-            let swings = if structure.damping[m] < 2.0 * omega { omega * time / std::f64::consts::PI } else { 0.0 };
-            (structure.quickness[m] * time).min(2.0 * (swings.ceil() + 1.0))
-        };
-        (0..self.lanes).map(|m| (row[m] * other[m]).abs() * of_mode(m)).sum()
     }
 
     /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
@@ -204,25 +157,5 @@ mod tests {
             assert!((sum(powers) / sum(RESPONSE_POWERS) - 1.0).abs() < 1e-12, "{time}: {powers}");
         }
         assert_eq!(response.powers(10.0, 1e-12), None);
-    }
-
-    /// The velocity after an impulse, at many times: by how much it goes up and down in all.
-    #[test]
-    fn a_bound_on_the_curvature_is_one() {
-        use crate::structure::ModeIncrement;
-        for (w, c) in [(3.0, 0.0), (3.0, 0.3), (1.0, 1.9), (4.0, 13.0), (0.1, 0.0)] {
-            let building = format!("mass = [1.0]\nstiffness = [{:?}]\ndamping = {{ matrix = [[{c:?}]] }}", w * w);
-            let text = format!("name = \"Two\"\n[left]\n{building}\n[right]\n{building}");
-            let scene = Scene::from_toml(&text).unwrap();
-            let structure = Structure::of(&scene).unwrap();
-            let response = ImpulseResponse::of(&structure).unwrap();
-            for time in [0.1, 1.0, 3.0, 10.0] {
-                let velocity = |k: i32| ModeIncrement::new(w, c, time * f64::from(k) / 1000.0).dvv;
-                let way: f64 = (1..1000).map(|k| (velocity(k + 1) - velocity(k)).abs()).sum();
-                let row: Vec<f64> = (0..structure.lanes).map(|m| f64::from(m == 0)).collect();
-                let bound = response.curvature(&structure, &row, &row, time);
-                assert!(way <= bound && bound <= 6.0 * way + 4.0, "{w} {c} over {time}: {way}, {bound}");
-            }
-        }
     }
 }

@@ -25,7 +25,6 @@
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
 //! | `motion.rs` | displacements with velocities, a load or the ground's acceleration with its rate |
-//! | `mode_polynomials.rs`, `free_rows.rs` | the motion of one mode, or of a distance, over a time as a polynomial |
 //! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
 
 pub use crate::scene::Side;
@@ -44,13 +43,11 @@ mod flight_work;
 mod floor_forces;
 mod floors;
 mod form;
-mod free_rows;
 mod impulse_response;
 mod interval;
 mod lane_matrix;
 mod lanes;
 mod links;
-mod mode_polynomials;
 mod modes;
 mod motion;
 mod propagator;
@@ -65,7 +62,6 @@ pub use first_mode::FirstMode;
 pub use flight_modes::FlightModes;
 pub use flight_work::{Counts, FlightEnergy, FlightWork, WorkRoom};
 pub use floors::Floors;
-pub use free_rows::FreeRows;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::Interval;
 pub(crate) use lanes::from_left_to_right;

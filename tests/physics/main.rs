@@ -40,7 +40,6 @@ mod soil;
 mod stereomechanical;
 mod stress;
 mod structure;
-mod tall_buildings;
 mod tension;
 mod walls;
 mod walls_and_ground;

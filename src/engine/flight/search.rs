@@ -12,7 +12,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
-use crate::structure::{EXACT, FreeRows, LinearLoad, Motion, MotionMut, PIECE_ANGLE, difference, flight_order};
+use crate::structure::{EXACT, LinearLoad, Motion, MotionMut, PIECE_ANGLE, flight_order};
 
 /// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
@@ -38,13 +38,6 @@ impl Search<'_> {
         let (remaining, flying) = (planned.length, system.structure.in_flight());
         let mut unit = if flying.fastest * remaining > PIECE_ANGLE { PIECE_ANGLE / flying.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
-        let are_elastic = self.look.is_free[system.pairs.len()..].iter().all(|is_elastic| *is_elastic);
-        if let Some(rows) =
-            system.free_rows.as_ref().filter(|rows| !is_tracked && are_elastic && remaining <= rows.length)
-        {
-            counters.narrow_phase_pieces += 1;
-            return self.first_entry_by_rows(rows, planned);
-        }
         self.look.start(base, &self.work.load);
         if is_tracked {
             system.structure.accelerate(&base.q, &base.v, &self.work.load, &mut self.work.q);
@@ -81,28 +74,6 @@ impl Search<'_> {
         }
         planned.motion_mut().copy_from(self.look.motion());
         (planned.length, planned.reaches_limit) = (self.look.from, false);
-    }
-
-    /// The same in one piece, by prepared polynomials of the penetrations.
-    fn first_entry_by_rows(&mut self, rows: &FreeRows, planned: &mut Planned) {
-        let Search { system, base, look, work, .. } = self;
-        let ground = base.ground();
-        let mut first = First::up_to(planned.length / rows.length);
-        for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
-            if look.is_free[p] {
-                continue;
-            }
-            let terms = &mut work.scalar[..FreeRows::TERMS];
-            rows.enter(p, base.motion(), ground, terms);
-            let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row.modes, motion));
-            (terms[0], terms[1]) = (moved, moving * rows.length);
-            let later: f64 = terms[2..].iter().map(|term| term.abs()).sum();
-            let noise = contact.begin_flight(terms, rows.length, pair.noise(size + speed * rows.length + later));
-            first.search(terms, noise, Event::Entry(p));
-        }
-        let Some((x, event)) = first.found() else { return };
-        (planned.length, planned.reaches_limit, planned.event) = (x * rows.length, false, Some(event));
-        system.fly(base, planned.length, work, planned.motion_mut());
     }
 
     /// Ends the step at the event found in the series of the last piece, or at the end of that piece.

@@ -11,7 +11,6 @@ use crate::engine::peaks::quantity::{Quantity, highest_by};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::Step;
-use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
@@ -191,7 +190,7 @@ impl PeakFinder<'_> {
             MotionMut { q, v }.copy_from(step.planned.motion());
             pairs.copy_from_slice(&solution.end);
         } else {
-            let free = FreeMotion::of(self.system, (base, inputs), series, work.buffers);
+            let free = (series, &mut work.buffers.powers);
             window.evaluate_with_pairs(self.system, free, time, MotionMut { q, v }, &mut pairs);
         }
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {

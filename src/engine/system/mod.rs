@@ -8,8 +8,6 @@ pub mod rest;
 pub mod tolerance;
 pub mod yields;
 
-use crate::collocation::MOST_PAIRS;
-use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -26,13 +24,7 @@ use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{
-    FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Side, Structure,
-};
-
-/// From more modes on windows take less time than power series floor by floor: these need more instructions from some 30
-/// on, of which more go at once (measured).
-const MANY_MODES: usize = 80;
+use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Side, Structure};
 
 /// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
@@ -59,8 +51,6 @@ pub struct System {
     pub least_approach: f64,
     /// Response to an impulse as a series in time; present where a law has a root and damping couples no modes.
     pub impulse_response: Option<ImpulseResponse>,
-    /// Polynomials of the pairs' distances apart from contact, where that response is one of polynomials.
-    pub free_rows: Option<FreeRows>,
     /// Modal displacements relative to the position of rest, m kg^1/2, and velocities at the start of a run.
     initial: [Vec<f64>; 2],
     /// The storeys then: displaced beyond their yield drift, they have yielded before.
@@ -85,12 +75,8 @@ impl System {
             }
             None => None,
         };
-        // The search for peaks reads a window many times, by exact flights of all modes where these are many.
-        let is_read_seldom = !scene.floor_forces && !scene.peaks;
-        let impulse_response = impulse_response(&structure, &pairs, ground.as_ref().filter(|_| is_read_seldom));
-        let rows = || pairs.iter().map(|pair| &pair.row.modes[..]);
-        let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
-        let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
+        let has_power_law = pairs.iter().any(Pair::has_power_law);
+        let impulse_response = has_power_law.then(|| ImpulseResponse::of(&structure)).flatten();
         let storeys = Element::all(scene, &structure);
         let floors = initial_floors(scene, &structure);
         let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(&floors)).collect();
@@ -110,9 +96,8 @@ impl System {
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
-            contact_coordinates: contact_coordinates(&structure, free_rows.is_some()),
+            contact_coordinates: contact_coordinates(&structure),
             least_approach: scene.solver.min_approach_velocity,
-            free_rows,
             impulse_response,
             ones: structure.floors.ones(),
             structure,
@@ -166,12 +151,6 @@ impl System {
     /// The largest share of its yield drift by which the plastic drift of a storey has moved its limits.
     pub fn moved_share(&self, storeys: &[Storey]) -> f64 {
         self.elements(storeys).map(|(of, (_, centre))| of.moved_share(centre)).fold(0.0, f64::max)
-    }
-
-    /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact
-    /// forces from exact flights.
-    pub fn flies_in_windows(&self) -> bool {
-        self.free_rows.is_some()
     }
 
     /// Whether a master's inputs act on the system, so that steps end at communication points.
@@ -326,29 +305,9 @@ fn set_load(shares: &[f64], ground: LinearGround, load: &mut [f64], slope: &mut 
     }
 }
 
-/// The response to an impulse, of use where a law has a root: polynomials over the time between two samples, or an equal
-/// part of it, for few pairs of buildings of many modes; else a power series.
-fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&GroundMotion>) -> Option<ImpulseResponse> {
-    if !pairs.iter().any(Pair::has_power_law) {
-        return None;
-    }
-    // Where a law changes with the sense of the motion, no bound shows which one acts in buildings that lean; and where
-    // floors touch from the start, some differ by less than the rounding of a sum over all modes.
-    let is_fit = |pair: &Pair| matches!(pair.force(), Force::Power { .. }) && pair.gap > 0.0;
-    let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(is_fit);
-    let is_for_many_modes = are_few && structure.lanes > MANY_MODES && !cfg!(without = "windows");
-    let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
-    let of_parts = length.and_then(|length| {
-        let parts = (structure.fastest * length / ImpulseResponse::FURTHEST).ceil().max(1.0);
-        ImpulseResponse::over(structure, length / parts)
-    });
-    of_parts.or_else(|| ImpulseResponse::of(structure))
-}
-
-/// The cheaper coordinates in contact: modes where they are few, where windows take them all at once, or where the floor
-/// matrices are full; else floors.
-fn contact_coordinates(structure: &Structure, has_windows: bool) -> Coordinates {
-    let are_many = structure.lanes > FEW_BLOCKS * LANES && !has_windows;
+/// The cheaper coordinates in contact: modes where they are few or where the floor matrices are full; else floors.
+fn contact_coordinates(structure: &Structure) -> Coordinates {
+    let are_many = structure.lanes > FEW_BLOCKS * LANES;
     if !cfg!(without = "floors") && are_many && structure.floors.is_sparse() {
         Coordinates::Floors
     } else {

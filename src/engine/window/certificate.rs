@@ -12,14 +12,10 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, ContactPhase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::window::free::FreeTerms;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
-use crate::structure::FreeRows;
-use std::array::from_fn;
-use std::f64::consts::PI;
-use std::sync::LazyLock;
+use crate::structure::MotionSeries;
 
 /// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
@@ -30,7 +26,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, free): (&Window, FreeTerms),
+        (window, free): (&Window, &MotionSeries),
         work: &mut Buffers,
         ending: Ending,
     ) -> bool {
@@ -39,8 +35,7 @@ impl Windows {
             let kernels = &equation.kernels[place].each_ref();
             let curved = if place < equation.closed { Curved::Up } else { Curved::Down };
             let terms = &equation.free[place][..equation.terms];
-            let of_kernels = self.of_kernels(system, window, window.contacts[place]);
-            let curvature = window.curvature(curved, terms, (kernels, &of_kernels), Some(place));
+            let curvature = window.curvature(curved, terms, kernels, Some(place));
             let passage =
                 PairPath { window, place, contact: &base.contacts[window.contacts[place]], curvature, ending };
             if place < equation.closed {
@@ -53,36 +48,30 @@ impl Windows {
             && window.stays_elastic(system, base, work)
     }
 
-    /// Bounds on the integrals of the second derivatives of a pair's kernels, for the closed pairs of a window.
-    fn of_kernels(&self, system: &System, window: &Window, p: usize) -> [f64; MOST_PAIRS] {
-        window.contacts.map(|q| self.curvature_of_kernel(system, p, q))
-    }
-
     /// Whether all pairs outside the window stay apart.
     fn others_stay_apart(
         &self,
         system: &System,
         base: &Base,
-        (window, free): (&Window, FreeTerms),
+        (window, free): (&Window, &MotionSeries),
         work: &mut Buffers,
     ) -> bool {
         let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
-            let terms = &mut work.scalar[..free.count()];
-            free.enter(system, p, terms);
+            let terms = &mut work.scalar[..=free.order];
+            free.dot_each(&system.pairs[p].row.modes, 2, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
             }
-            let of_kernels = self.of_kernels(system, window, p);
-            let curvature = |curved: Curved| window.curvature(curved, terms, (&kernels, &of_kernels), None);
+            let curvature = |curved: Curved| window.curvature(curved, terms, &kernels, None);
             if keeps_off(contact, curvature(Curved::Up), solution.length) {
                 return true;
             }
             let curvature = curvature(Curved::Down);
-            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * free.scale());
+            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * free.scale);
             let approach = Approach { window, free: terms, kernels: &kernels, curvature };
             let end = (solution.length, approach.depth(solution.length));
             end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)
@@ -110,76 +99,18 @@ impl Window {
     /// Bound on the second derivative of a pair's penetration over the window, in that curved, m/s2: of its motion
     /// without contact forces, from the terms `free`, and of all contact forces, from the `kernels`. The direct effect
     /// of its own force is left out if it is number `itself` in the window.
-    fn curvature(
-        &self,
-        curved: Curved,
-        free: &[f64],
-        (kernels, of_kernels): (&[&Kernel; MOST_PAIRS], &[f64; MOST_PAIRS]),
-        itself: Option<usize>,
-    ) -> f64 {
+    fn curvature(&self, curved: Curved, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let mut curvature = match free.len() == FreeRows::TERMS {
-            // Powers of quick modes cancel: their magnitudes would say nothing.
-            true => highest_curvature(free, x, curved),
-            false => {
-                let at_start = if curved == Curved::Up { 2.0 * free[2] } else { -2.0 * free[2] };
-                at_start + sum_of_sizes(free, 3, x) * x
-            }
-        };
-        curvature /= equation.scale * equation.scale;
+        let at_start = if curved == Curved::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+        let mut curvature = (at_start + sum_of_sizes(free, 3, x) * x) / (equation.scale * equation.scale);
         for q in 0..equation.closed {
             let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
             let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
-            curvature += greatest[q] * (at_once + (later * h).min(of_kernels[q]));
+            curvature += greatest[q] * (at_once + later * h);
         }
         curvature.max(0.0)
     }
-}
-
-/// Points at which the second derivative of a polynomial of [`FreeRows::TERMS`] terms is evaluated for a bound on it.
-const POINTS: usize = 36;
-
-/// The zeros of the Chebyshev polynomial of that degree on 0..=1, by fours.
-static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
-    from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
-});
-
-/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]:
-/// for the second derivative of one of [`FreeRows::TERMS`] terms.
-const BETWEEN_POINTS: f64 = 1.36;
-
-/// A bound on the second derivative of a polynomial, of that curved, over 0..=x.
-fn highest_curvature(terms: &[f64], x: f64, curved: Curved) -> f64 {
-    let (lowest, highest) = curvatures(&CHEBYSHEV, terms, x);
-    let (middle, half) = (0.5 * (highest + lowest), 0.5 * (highest - lowest));
-    let bound = BETWEEN_POINTS * half + if curved == Curved::Up { middle } else { -middle };
-    if bound.is_nan() { f64::INFINITY } else { bound }
-}
-
-/// The least and the largest second derivative at the points; NaN where any is.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn curvatures(points: &[[f64; 4]; POINTS / 4], terms: &[f64], x: f64) -> (f64, f64) {
-    let mut factors = [0.0; FreeRows::TERMS];
-    for n in 2..FreeRows::TERMS {
-        factors[n] = terms[n] * SECOND[n];
-    }
-    let (mut low, mut high, mut all) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4], [0.0; 4]);
-    for points in points {
-        let mut sum = [0.0; 4];
-        for n in (2..FreeRows::TERMS).rev() {
-            for i in 0..4 {
-                sum[i] = sum[i] * (points[i] * x) + factors[n];
-            }
-        }
-        for i in 0..4 {
-            low[i] = if sum[i] < low[i] { sum[i] } else { low[i] };
-            high[i] = if sum[i] > high[i] { sum[i] } else { high[i] };
-            all[i] += 0.0 * sum[i];
-        }
-    }
-    let spoiled: f64 = all.iter().sum();
-    (low.into_iter().fold(low[0], f64::min) + spoiled, high.into_iter().fold(high[0], f64::max) + spoiled)
 }
 
 /// Sum of the magnitudes of the second derivatives of the terms from number `first` on, divided by the power of x in
@@ -369,39 +300,5 @@ impl PairPath<'_> {
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.curvature * piece.gone;
             recedes
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and
-    /// not far above the largest.
-    #[test]
-    fn a_bound_by_values_at_points_holds_between_them() {
-        for (rate, swing) in [(0.0, 3.0), (-13.0, 0.0), (-2.0, 9.0), (0.5, 1.0)] {
-            // exp(rate x) cos(swing x), by its first terms.
-            let (mut power, mut terms) = ([1.0, 0.0], [0.0; FreeRows::TERMS]);
-            for (n, term) in terms.iter_mut().enumerate() {
-                *term = power[0];
-                let k = n as f64 + 1.0;
-                power = [(rate * power[0] - swing * power[1]) / k, (rate * power[1] + swing * power[0]) / k];
-            }
-            for end in [0.1, 0.77, 1.0] {
-                let at = |k: u32| end * f64::from(k) / 1000.0;
-                let curvature = |x: f64| (2..terms.len()).rev().fold(0.0, |sum, n| sum * x + SECOND[n] * terms[n]);
-                for (curved, sign) in [(Curved::Up, 1.0), (Curved::Down, -1.0)] {
-                    let largest = (0..=1000).map(|k| sign * curvature(at(k))).fold(f64::NEG_INFINITY, f64::max);
-                    let size = (0..=1000).map(|k| curvature(at(k)).abs()).fold(0.0, f64::max);
-                    let bound = highest_curvature(&terms, end, curved);
-                    assert!(
-                        bound >= largest && bound <= largest + 0.5 * size,
-                        "{rate} {swing} {end}: {bound}, {largest}"
-                    );
-                }
-            }
-        }
-        assert_eq!(highest_curvature(&[f64::NAN; FreeRows::TERMS], 1.0, Curved::Up), f64::INFINITY);
     }
 }

@@ -5,7 +5,6 @@ use crate::contact::Force;
 use crate::engine::base::Coordinates;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
-use crate::engine::window::prepared_push::PreparedPush;
 use crate::engine::window::spring::Spring;
 
 /// Relative tolerance of a step at which windows have the lengths of [`longest_window`], and the exponent with which
@@ -28,11 +27,6 @@ pub struct Windows {
     pub allowed: f64,
     /// Length of windows relative to that at the usual tolerance.
     pub length_factor: f64,
-    /// Bounds on the integrals of their second derivatives over [`Windows::longest`], 1/kg; empty where the kernels'
-    /// terms bound these well.
-    curvatures: Vec<f64>,
-    /// For each pair, the effect of its force over windows of that length; empty where these distances are series.
-    pub prepared_pushes: Vec<PreparedPush>,
     /// For each pair, the spring of its law, where the law is a power law.
     pub springs: Vec<Option<Spring>>,
 }
@@ -41,7 +35,7 @@ impl Windows {
     /// For a system; `None` where there are no windows: no law is for them, damping couples the modes, or contacts are
     /// worked out on floors.
     pub fn of(system: &System) -> Option<Windows> {
-        let System { structure, impulse_response, pairs, tolerance, contact_coordinates, .. } = system;
+        let System { impulse_response, pairs, tolerance, contact_coordinates, .. } = system;
         if cfg!(without = "windows") || *contact_coordinates != Coordinates::Modes {
             return None;
         }
@@ -52,25 +46,7 @@ impl Windows {
             known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row.modes, &q.row.modes))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
-        let curvatures = response.longest().map_or(Vec::new(), |time| {
-            let of = |p: &Pair, q: &Pair| response.curvature(structure, &p.row.modes, &q.row.modes, time);
-            pairs.iter().flat_map(|p| pairs.iter().map(move |q| of(p, q))).collect()
-        });
-        let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row.modes, response.longest()?));
-        let prepared_pushes = pairs.iter().filter_map(push).collect();
-        Some(Windows {
-            kernels,
-            allowed,
-            length_factor: length_factor(tolerance.step),
-            curvatures,
-            prepared_pushes,
-            springs,
-        })
-    }
-
-    /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.
-    pub fn curvature_of_kernel(&self, system: &System, p: usize, q: usize) -> f64 {
-        self.curvatures.get(p * system.pairs.len() + q).copied().unwrap_or(f64::INFINITY)
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
     }
 
     /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.

@@ -7,14 +7,12 @@
 
 pub mod certificate;
 pub mod elastic;
-pub mod free;
 pub mod kernels;
-pub mod prepared_push;
 pub mod solution;
 pub mod spring;
 pub mod trial;
 
-use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables, WindowWorkspace};
+use crate::collocation::{Ending, MOST_PAIRS, Tables, WindowWorkspace};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Event, Planned};
@@ -22,11 +20,10 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
-use crate::engine::window::free::{FreeMotion, FreeTerms};
 use crate::engine::window::kernels::{Windows, are_for};
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
-use crate::structure::{EXACT, LinearLoad, MotionSeries, flight_order};
+use crate::structure::{EXACT, MotionSeries, dot, flight_order};
 
 /// Allowed truncation error of a kernel, relative to the tolerance of one step.
 const KERNEL_SHARE: f64 = 0.03;
@@ -40,12 +37,6 @@ const SWEEP_SHARE: f64 = 0.3;
 
 /// A contact is at rest if the part of its force that is not balanced, and its velocity, are below this share.
 const AT_REST: f64 = 0.1;
-
-/// Relative rounding error of the velocity that a force has given at the end of a window.
-const CANCELLED: f64 = 2.0 * f64::EPSILON;
-
-/// Rounding error of velocities in any kind of step, relative to the velocity scale.
-const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Largest number of pairs with dashpots in a window: with two, series in a time map cost about as much (measured).
 const MOST_DAMPED: usize = 1;
@@ -81,7 +72,10 @@ impl Windows {
         }
         let (whole, remaining) = (remaining, remaining.min(self.longest(system)));
         let Some(mut trial) = self.trial(system, base, window, remaining) else { return false };
-        let Some(free) = self.set_equation(system, base, (window, series), work, trial.room()) else { return false };
+        if self.set_equation(system, base, (window, series), work, trial.room()).is_none() {
+            return false;
+        }
+        let free = &*series;
         if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
             return false;
         }
@@ -106,7 +100,7 @@ impl Windows {
                 Verdict::Good => {
                     at.counters.contact_steps += 1;
                     at.counters.law_evaluations += base.count_forces(Contact::branch);
-                    window.commit((system, base), (self, free), planned, work, trial.ending, whole);
+                    window.commit(system, free, planned, work, trial.ending, whole);
                     return true;
                 }
                 Verdict::Another(next) => trial = next,
@@ -116,47 +110,37 @@ impl Windows {
         false
     }
 
-    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns where terms of
-    /// that motion come from, if they reach that far.
-    fn set_equation<'a>(
+    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s, if series reach that far.
+    fn set_equation(
         &self,
-        system: &'a System,
-        base: &'a Base,
-        (window, series): (&mut Window, &'a mut MotionSeries),
+        system: &System,
+        base: &Base,
+        (window, series): (&mut Window, &mut MotionSeries),
         work: &Buffers,
         longest: f64,
-    ) -> Option<FreeTerms<'a>> {
+    ) -> Option<()> {
         let System { structure, tolerance, impulse_response, .. } = system;
         let equation = &mut window.equation;
         equation.remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
-        let free = match &system.free_rows {
-            Some(rows) => {
-                equation.powers = POWERS;
-                FreeTerms::Rows(rows, base)
-            }
-            None => {
-                equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
-                let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
-                series.expand_flight(structure, base.motion(), work.loads(), (longest, order));
-                FreeTerms::Series(series)
-            }
-        };
-        (equation.scale, equation.terms) = (free.scale(), free.count());
+        equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
+        let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
+        series.expand_flight(structure, base.motion(), work.loads(), (longest, order));
+        (equation.scale, equation.terms) = (series.scale, series.order + 1);
         for place in 0..equation.closed {
-            self.set_pair(system, base, (window, free), place);
+            self.set_pair(system, base, (window, series), place);
         }
-        Some(free)
+        Some(())
     }
 
     /// Sets the data of one pair of the window.
-    fn set_pair(&self, system: &System, base: &Base, (window, terms): (&mut Window, FreeTerms), place: usize) {
+    fn set_pair(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), place: usize) {
         let Window { equation, contacts, .. } = window;
         let p = contacts[place];
         let contact = &base.contacts[p];
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
-        terms.enter(system, p, free);
+        series.dot_each(&system.pairs[p].row.modes, 2, free);
         equation.kernels[place][place] = *self.kernel(system, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
             equation.kernels[place][other] = *self.kernel(system, p, *q, &mut None);
@@ -164,13 +148,13 @@ impl Windows {
     }
 
     /// Adds the open pairs that may come into contact within `length` seconds, as many as there is room for.
-    fn watch(&self, system: &System, base: &Base, (window, free): (&mut Window, FreeTerms), length: f64) {
+    fn watch(&self, system: &System, base: &Base, (window, free): (&mut Window, &MotionSeries), length: f64) {
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
             let place = window.equation.pairs;
             if place == MOST_PAIRS || system.pairs[p].law.is_rigid() {
                 return;
             }
-            let curvature = free.curvature_at_start(system, p, &mut window.equation.free[place]);
+            let curvature = 2.0 * dot(&system.pairs[p].row.modes, free.term(2)).max(0.0) / (free.scale * free.scale);
             if keeps_off(contact, 2.0 * curvature, length) {
                 continue;
             }
@@ -185,7 +169,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, free): (&Window, FreeTerms),
+        (window, free): (&Window, &MotionSeries),
         work: &mut Buffers,
         trial: Trial,
         tolerance: f64,
@@ -263,18 +247,14 @@ impl Window {
         let pushed = equation.kernels[place][place][1] * force.value(d, rate);
         let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
         let stored = force.stored_energy(d) / system.pairs[p].mass;
-        let lost = CANCELLED * pushed * equation.scale;
-        if system.flies_in_windows() && lost < (system.tolerance.step + ROUNDED) * base.velocity_scale {
-            return false;
-        }
         left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
     }
 
     /// Makes a solved window the planned step.
     fn commit(
         &self,
-        (system, base): (&System, &Base),
-        (windows, terms): (&Windows, FreeTerms),
+        system: &System,
+        free: &MotionSeries,
         planned: &mut Planned,
         work: &mut Buffers,
         ending: Ending,
@@ -288,16 +268,7 @@ impl Window {
             Ending::Touch(place) => Some(Event::Entry(contacts[place])),
         };
         planned.plan(length, event, length == remaining && event.is_none(), Some(length));
-        let free = match terms {
-            FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
-            FreeTerms::Rows(..) => {
-                FreeMotion::Flight(base, LinearLoad { load: &work.load, slope: &work.slope }, &mut work.interval)
-            }
-        };
-        match windows.prepared_pushes.is_empty() {
-            true => self.evaluate(system, free, length, planned.motion_mut()),
-            false => self.end_by_nodes(system, windows, free, planned.motion_mut()),
-        }
+        self.evaluate(system, (free, &mut work.powers), length, planned.motion_mut());
     }
 
     /// A trial up to the first event that a solved window has passed; `None` if it has passed none.

@@ -5,11 +5,10 @@ use crate::collocation::{
 };
 use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::system::System;
-use crate::engine::window::free::FreeMotion;
-use crate::engine::window::kernels::Windows;
 use crate::numerics::polynomial::{each, larger, value_and_slope};
+use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, turning_point};
-use crate::structure::MotionMut;
+use crate::structure::{MotionMut, MotionSeries};
 
 /// The node next to a peak has at least this share of it.
 const NEARLY: f64 = 0.97;
@@ -170,8 +169,9 @@ fn weigh(nodes: &Nodes, force: &AtNodes, part: &WindowPart, elapsed: f64, moment
 }
 
 impl Window {
-    /// Displacements and velocities, `elapsed` seconds into the window, from the motion without contact forces.
-    pub fn evaluate(&self, system: &System, free: FreeMotion, elapsed: f64, motion: MotionMut) {
+    /// Displacements and velocities, `elapsed` seconds into the window, from the series of the motion without contact
+    /// forces; the powers are memory.
+    pub fn evaluate(&self, system: &System, free: (&MotionSeries, &mut Powers), elapsed: f64, motion: MotionMut) {
         self.evaluate_with_pairs(system, free, elapsed, motion, &mut []);
     }
 
@@ -179,13 +179,14 @@ impl Window {
     pub fn evaluate_with_pairs(
         &self,
         system: &System,
-        free: FreeMotion,
+        (free, powers): (&MotionSeries, &mut Powers),
         elapsed: f64,
         MotionMut { q, v }: MotionMut,
         pairs: &mut [(f64, f64)],
     ) {
         let Some(response) = &system.impulse_response else { return };
-        free.evaluate(system, elapsed, MotionMut { q, v });
+        powers.set(elapsed / free.scale, free.order);
+        free.evaluate(powers, q, v);
         let mut room = None;
         let moments = self.moments(elapsed, &mut room);
         for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
@@ -193,20 +194,6 @@ impl Window {
         }
         for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
             *pair = self.depth(place, elapsed, moments);
-        }
-    }
-}
-
-impl Window {
-    /// The motion at the end, with prepared matrices where there are any for this window.
-    pub fn end_by_nodes(&self, system: &System, windows: &Windows, free: FreeMotion, MotionMut { q, v }: MotionMut) {
-        let Some(response) = &system.impulse_response else { return };
-        let SolvedWindow { map, rule, length, ref force, .. } = self.solution;
-        free.evaluate(system, length, MotionMut { q, v });
-        for ((&p, force), moments) in self.contacts.iter().zip(force).zip(&self.whole).take(self.equation.closed) {
-            if !windows.prepared_pushes[p].push((map, rule, length), force, MotionMut { q, v }) {
-                response.push(&system.pairs[p].row.modes, &moments[..self.equation.powers], MotionMut { q, v });
-            }
         }
     }
 }

@@ -24,10 +24,6 @@ const TOO_STIFF: f64 = 200.0;
 /// Largest (fastest rate) x (length) of a window where motion and kernels are power series.
 const MODES_ANGLE: f64 = 1.0;
 
-/// Largest share of a penetration by which it may change over a window that passes as one in which little changes, and
-/// the factor on lengths for which fewer nodes do then.
-const LITTLE_CHANGE: (f64, f64) = (0.1, 4.0);
-
 /// A window to be tried.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
@@ -82,7 +78,7 @@ impl Trial {
 impl Windows {
     /// Length of the longest window for which terms of the motion and kernels are good, s.
     pub fn longest(&self, system: &System) -> f64 {
-        system.free_rows.as_ref().map_or(MODES_ANGLE / system.structure.fastest, |rows| rows.length)
+        MODES_ANGLE / system.structure.fastest
     }
 
     /// The window to try first within the `remaining` seconds; `None` where numbers of a contact overflow or its
@@ -122,11 +118,8 @@ impl Windows {
             }
         }
         // With fewer nodes the length depends on a higher power of the tolerance.
-        let (mut reach, least) = (self.length_factor * longest, NodeCount::Eight);
+        let (reach, least) = (self.length_factor * longest, NodeCount::Eight);
         longest = longest.min(self.longest(system));
-        if system.free_rows.is_some() && changes_little(base, window, longest.min(remaining)) {
-            reach *= LITTLE_CHANGE.1;
-        }
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
             return None;
         }
@@ -136,21 +129,13 @@ impl Windows {
             Ending::Release(_) if time <= longest => Trial { map: map.with_end(), ..trial },
             _ => trial.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
         };
-        // Where buildings lean on each other for many samples, no window is cut short of the next one.
-        let goes_through = system.free_rows.is_some() && remaining <= BEFORE_RELEASE * time && remaining <= longest;
-        if trial.length <= remaining && !goes_through {
+        if trial.length <= remaining {
             return Some(trial);
         }
         let is_before_release = matches!(ending, Ending::Release(_));
         let length = if is_before_release { remaining.min(BEFORE_RELEASE * time) } else { remaining };
         Some(Trial { length, ..trial.shorter(1.0) })
     }
-}
-
-/// Whether the penetrations of all closed pairs change little in a time, s, as when buildings lean on each other.
-fn changes_little(base: &Base, window: &Window, time: f64) -> bool {
-    let mut closed = window.contacts.iter().take(window.equation.closed).map(|p| &base.contacts[*p]);
-    closed.all(|contact| contact.rate.abs() * time <= LITTLE_CHANGE.0 * contact.penetration)
 }
 
 /// Largest length of a window in the contact's time units, found by measurement; half of a Hertz contact takes 1.61.

@@ -119,11 +119,6 @@ impl MotionSeries {
         bounds.iter_mut().for_each(|bound| *bound *= square * square);
     }
 
-    /// Whether it has no lanes.
-    pub fn is_empty(&self) -> bool {
-        self.coefficients.is_empty()
-    }
-
     /// Becomes the series of the accelerations of another one, m/s2, in the x of its time map.
     pub fn set_accelerations(&mut self, of: &MotionSeries, substitution: &Substitution) {
         (self.order, self.scale, self.time_map) = (of.order.saturating_sub(2), of.scale, TimeMap::default());
