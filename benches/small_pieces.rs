@@ -137,7 +137,7 @@ fn episode(criterion: &mut Criterion) {
             let end = release(&model, start.clone());
             let mut finished = start.clone();
             advance(&model, &mut finished, end);
-            group.throughput(Throughput::Elements(finished.counters().contact_steps));
+            group.throughput(Throughput::Elements(finished.counters().contact_steps()));
             let run = |state: &mut State| advance(&model, state, end);
             group.bench_function(format!("{} on {}+{} storeys", name(law), floors[0], floors[1]), |bencher| {
                 bencher.iter_batched_ref(|| start.clone(), run, BatchSize::SmallInput);

@@ -57,8 +57,8 @@ fn print_row(plane: &str, value: f64, extreme: &Extreme) {
         "{plane},{},{:e},{value:e},{outcome},{residual:.2e},{impacts},{},{},{:.2e},\"{}\"",
         extreme.law,
         extreme.stiffness,
-        counters.contact_steps,
-        counters.flight_steps,
+        counters.contact_steps(),
+        counters.flight_steps(),
         seconds,
         message.replace('\n', "; ").replace('"', "'")
     );

@@ -5,12 +5,14 @@
     benchmarks/instructions.py LIBRARY ...          these, beside the first
 
 A program in C (drive.c) makes 2000 steps of 0.01 s with each example scene and some of the reference scenes, and reads the top
-displacements and all contact forces at each step; `valgrind --tool=callgrind` counts. A run of one step is taken off: what is
+displacements and all contact forces at each step and all Real outputs at the end; `valgrind --tool=callgrind` counts. A run of one step is taken off: what is
 left is the work of the steps. The bits that are read must be the same for all libraries. Needs gcc and valgrind.
 """
 
 import math
+import os
 import re
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -48,8 +50,8 @@ def main():
         print(f"{library}: geometric mean {mean:.3f}, largest {max(of_library):.3f}")
 
 
-def run(*command):
-    done = subprocess.run([*map(str, command)], cwd=ROOT, capture_output=True, text=True)
+def run(*command, **settings):
+    done = subprocess.run([*map(str, command)], cwd=ROOT, capture_output=True, text=True, env=os.environ | settings)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
     return done
@@ -57,10 +59,16 @@ def run(*command):
 
 def released():
     """The library of a release, for this machine."""
-    target = WORK / "release"
+    return built(WORK / "release", WORK / "released.so")
+
+
+def built(target, place, **settings):
+    """A library, compiled below a target folder with these settings of cargo."""
     command = "cargo rustc --release --lib --crate-type cdylib --package pounding-fmu --target-dir"
-    run(*command.split(), target, "--", "--cfg", "fmi_exports")
-    return target / "release/libpounding.so"
+    run(*command.split(), target, "--", "--cfg", "fmi_exports", **settings)
+    place.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(target / "release/libpounding.so", place)
+    return place
 
 
 def packed():
@@ -76,14 +84,14 @@ def packed():
 def compiled_driver():
     WORK.mkdir(parents=True, exist_ok=True)
     driver = WORK / "drive"
-    run("gcc", "-O1", "-Wall", "-o", driver, ROOT / "benchmarks/drive.c", "-ldl")
+    run("gcc", "-O1", "-Wall", "-o", driver, ROOT / "benchmarks/drive.c", "-ldl", "-lm")
     return driver
 
 
 class Case:
-    """A scene as an unpacked FMU."""
+    """A scene as an unpacked FMU, whose peaks may be read at each step."""
 
-    def __init__(self, scene):
+    def __init__(self, scene, reads_peaks=False):
         self.name = scene.stem
         folder = WORK / "cases" / scene.stem
         run("cargo", "fmu", scene, "-o", f"{folder}.fmu")
@@ -92,20 +100,32 @@ class Case:
         self.resources = (folder / "resources").as_uri()
         description = ElementTree.parse(folder / "modelDescription.xml").getroot()
         self.guid = description.get("guid")
-        references = {v.get("name"): v.get("valueReference") for v in description.iter("ScalarVariable")}
+        variables = {v.get("name"): v for v in description.iter("ScalarVariable")}
+        references = {name: v.get("valueReference") for name, v in variables.items()}
         floors = [[name for name in references if name.startswith(f"{side}.displacement[")] for side in ("left", "right")]
         # A scene may have one building beside walls.
         tops = [max(names, key=number) for names in floors if names]
         forces = [name for name in references if re.fullmatch(r"contact\[\d+\]\.force", name)]
-        self.references = [references[name] for name in tops + forces]
+        reals = [name for name, v in variables.items() if v.get("causality") == "output" and v.find("Real") is not None]
+        peaks = [name for name in reals if "peak" in name] if reads_peaks else []
+        self.references = [references[name] for name in tops + forces + peaks]
+        self.at_end = [references[name] for name in reals]
+        self.gaps = [references[name] for name in references if re.fullmatch(r"contact\[\d+\]\.gap", name)]
+        self.stop = description.find("DefaultExperiment").get("stopTime")
 
     def instructions(self, driver, library):
         """Of the steps, and what was read."""
-        (whole, bits), (start, _) = self.count(driver, library, STEPS), self.count(driver, library, 1)
+        (whole, bits), (start, _) = (self.count(driver, library, steps, STEP) for steps in (STEPS, 1))
         return whole - start, bits
 
-    def count(self, driver, library, steps):
-        command = [driver, library, self.guid, self.resources, steps, STEP, *self.references]
+    def study(self, driver, library, cases):
+        """Of all but the first of these cases, which have gaps of their own, and what was read."""
+        counted = (self.count(driver, library, count, self.stop, "--", *self.gaps) for count in (cases, 1))
+        (whole, bits), (start, _) = counted
+        return whole - start, bits
+
+    def count(self, driver, library, steps, length, *more):
+        command = [driver, library, self.guid, self.resources, steps, length, *self.references, "--", *self.at_end, *more]
         done = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command)
         return int(re.search(r"Collected : (\d+)", done.stderr)[1]), done.stdout
 

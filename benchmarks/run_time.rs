@@ -99,11 +99,11 @@ fn run_times(scene: &Path, way: Way, tolerance: f64, repeats: usize, output: &Pa
     println!("\n{}", point.impacts);
     println!("setup_s={setup:e}");
     let counters = state.counters();
-    println!("flight_steps={}", counters.flight_steps);
+    println!("flight_steps={}", counters.flight_steps());
     println!("narrow_phase_pieces={}", counters.narrow_phase_pieces);
     println!("pairs_evaluated={}", counters.pairs_evaluated);
-    println!("contact_steps={}", counters.contact_steps);
-    println!("yielding_steps={}", counters.yielding_steps);
+    println!("contact_steps={}", counters.contact_steps());
+    println!("yielding_steps={}", counters.yielding_steps());
     println!("events={}", counters.events);
     let bytes: Vec<u8> = readings.iter().flat_map(|value| value.to_ne_bytes()).collect();
     std::fs::write(output, bytes)?;

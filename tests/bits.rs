@@ -74,7 +74,7 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0xf8de_f7ad_d5c2_5e85),
         (Case { yields: true, ..case(damped(), MATRIX) }, 0x6f35_c2f8_75fc_5e0e),
         (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x6b12_30f9_5b73_511c),
-        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x3720_f6f3_3090_37b4),
+        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x900d_7736_9e88_5711),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

@@ -37,10 +37,10 @@ impl Progress {
     /// Work of the communication step so far, in flights.
     pub(super) fn work(&self, counters: &Counters) -> u64 {
         let before = &self.before;
-        let series = |of: &Counters| of.contact_steps + of.yielding_steps;
+        let series = |of: &Counters| of.contact_steps() + of.yielding_steps();
         let with_series = series(counters) - series(before);
         let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
-        let flown = counters.flight_steps - before.flight_steps;
+        let flown = counters.flight_steps() - before.flight_steps();
         let accounted = counters.energy_steps - before.energy_steps;
         20 * with_series + 10 * looked + 6 * accounted + flown
     }

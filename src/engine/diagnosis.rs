@@ -4,7 +4,7 @@
 use crate::contact::LawKey;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::counters::Counters;
+use crate::engine::base::kinds::Kind;
 use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights};
 use crate::engine::error::{EngineError, GivenUp};
 use crate::engine::excitation::record::GroundMotion;
@@ -67,7 +67,8 @@ impl Model {
     /// The work of a communication step at its beginning, after fast flight over `flown` segments.
     pub(in crate::engine) fn progress(&self, state: &State, flown: u64) -> Progress {
         let State { time, counters, base, .. } = state;
-        let before = Counters { flight_steps: counters.flight_steps.saturating_sub(flown), ..*counters };
+        let mut before = *counters;
+        before.taken[Kind::FlownAtOnce as usize] = counters.taken(Kind::FlownAtOnce).saturating_sub(flown);
         Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most: self.most_flights as u64 }
     }
 
@@ -85,9 +86,9 @@ impl Model {
     #[cold]
     fn give_up(&self, state: &State, progress: &Progress) -> GivenUp {
         let (counters, before, base) = (&state.counters, &progress.before, &state.base);
-        let in_contact = counters.contact_steps - before.contact_steps;
-        let yielding = counters.yielding_steps - before.yielding_steps;
-        let steps = in_contact + yielding + counters.flight_steps - before.flight_steps;
+        let in_contact = counters.contact_steps() - before.contact_steps();
+        let yielding = counters.yielding_steps() - before.yielding_steps();
+        let steps = in_contact + yielding + counters.flight_steps() - before.flight_steps();
         let (impacts, time, start) = (base.impacts - progress.impacts_before, base.time(), progress.start);
         let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
         let remedy = match () {

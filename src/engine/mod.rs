@@ -79,6 +79,7 @@ mod yielding;
 pub use crate::engine::advance::Collapse;
 pub use crate::engine::base::contact::Episode;
 pub use crate::engine::base::counters::Counters;
+pub use crate::engine::base::kinds::{Kind, Refusal};
 pub use crate::engine::error::{EngineError, GivenUp};
 pub use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
 pub use crate::engine::model::Model;

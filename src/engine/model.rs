@@ -1,6 +1,7 @@
 //! The model: the scene, prepared for the engine; constant during a run.
 
 use crate::engine::base::Base;
+use crate::engine::base::kinds::Refusal;
 use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::Flight;
@@ -24,7 +25,8 @@ pub struct Model {
     /// Whether the energy account is kept.
     pub(in crate::engine) energy: bool,
     pub(in crate::engine) flight: Flight,
-    pub(in crate::engine) windows: Option<Windows>,
+    /// What windows need, or why there are none.
+    pub(in crate::engine) windows: Result<Windows, Refusal>,
     pub(in crate::engine) watched: Watched,
     pub(in crate::engine) storeys: Storeys,
     /// Natural frequencies of the left and the right building, ascending, Hz.

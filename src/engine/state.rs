@@ -193,7 +193,7 @@ impl Workspace {
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, model.system.limits()),
-            windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
+            windows: WindowWorkspace::new(if model.windows.is_ok() { pairs } else { 0 }),
             peaks: model.peaks().peak_room(log.capacity()),
             log,
             steps: StepLog::default(),
@@ -236,7 +236,8 @@ impl Model {
         }
         state.base.peaks = peaks;
         // Steps that wait are searched without the forces of a master.
-        if self.windows.is_some() && !self.watched.rows.are_none() && !self.system.floor_forces {
+        let waits = self.windows.is_ok() && !self.watched.rows.are_none() && !self.system.floor_forces;
+        if waits && !cfg!(without = "step_log") {
             state.work.steps = StepLog::new(&self.system, &state.base);
         }
         state

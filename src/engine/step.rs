@@ -3,6 +3,7 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
+use crate::engine::base::kinds::Kind;
 use crate::engine::base::planned::Planned;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::inputs::Inputs;
@@ -28,7 +29,7 @@ pub(super) struct Step {
     pub window: Box<Window>,
 }
 
-/// The kinds of step.
+/// What holds the solution of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepKind {
     /// No step has been planned.
@@ -41,6 +42,18 @@ pub(super) enum StepKind {
     Onset,
     /// Contact forces over a whole window, for few pairs under power laws.
     Window,
+}
+
+impl StepKind {
+    /// What holds the solution of a planned step of that kind.
+    pub(super) fn of(kind: Kind) -> StepKind {
+        match kind {
+            Kind::FlownAtOnce | Kind::Cleared | Kind::ByEnds | Kind::ByAmplitudes | Kind::Searched => StepKind::Flight,
+            Kind::AtOnce | Kind::Exact | Kind::Series | Kind::Mapped => StepKind::Taylor,
+            Kind::Onset => StepKind::Onset,
+            Kind::Window => StepKind::Window,
+        }
+    }
 }
 
 /// The dense solution of a step.

@@ -381,7 +381,9 @@ impl Structure {
 /// Whether nothing but the ground pushes on the buildings in flights: forces on floors, and rigid pairs that have just parted,
 /// ask for the modes.
 fn flies_by_oscillators(scene: &Scene) -> bool {
-    !scene.floor_forces && !scene.contacts.iter().any(|contact| contact.law.is_rigid())
+    !cfg!(without = "oscillators")
+        && !scene.floor_forces
+        && !scene.contacts.iter().any(|contact| contact.law.is_rigid())
 }
 
 /// `out` -= a square matrix, column by column, times `factor` times a vector.

@@ -14,6 +14,7 @@ mod golden;
 mod golden_yielding;
 mod impacts;
 mod invariants;
+mod kinds;
 mod linear_inputs;
 mod links;
 mod many_storeys;

@@ -3,7 +3,7 @@
 //! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
 use crate::engine::base::Base;
-use crate::engine::base::counters::Counters;
+use crate::engine::base::kinds::Kind;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::SegmentAccount;
@@ -44,7 +44,7 @@ impl Model {
             if until < ground.end_of(&base.segment) {
                 if !is_planned {
                     step.kind = StepKind::Deferred;
-                    self.count_flown(counters, 1);
+                    counters.taken[Kind::FlownAtOnce as usize] += 1;
                 }
                 break true;
             }
@@ -56,7 +56,7 @@ impl Model {
             counters.energy_steps += if base.energy.is_some() { flown } else { 0 };
             // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not cleared.
             base.clearance.move_on(flown);
-            self.count_flown(counters, flown - u64::from(is_planned));
+            counters.taken[Kind::FlownAtOnce as usize] += flown - u64::from(is_planned);
             step.kind = StepKind::NotPlanned;
             next += flown;
             base.segment = ground.segment(next);
@@ -100,21 +100,16 @@ impl Model {
             && base.elapsed == 0.0
             && self.system.is_in_flight(base)
             && self.system.structure.in_flight().is_classical()
+            && (self.watched.rows.are_none() || self.peaks().logs_flights())
             && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface)
             && !base.storeys.iter().any(|storey| storey.yields.is_some() || storey.turned.is_some());
         if is_plain { self.system.watched_segment(base) } else { None }
     }
 
-    fn count_flown(&self, counters: &mut Counters, flown: u64) {
-        counters.flight_steps += flown;
-        counters.flights_cleared += if self.system.pairs.is_empty() { 0 } else { flown };
-    }
-
     /// Forgets a deferred flight, so that it is planned in the usual way.
     pub(in crate::engine) fn forget_deferred(&self, state: &mut State) {
         state.step.kind = StepKind::NotPlanned;
-        state.counters.flight_steps -= 1;
-        state.counters.flights_cleared -= u64::from(!self.system.pairs.is_empty());
+        state.counters.taken[Kind::FlownAtOnce as usize] -= 1;
     }
 }
 

@@ -1,8 +1,8 @@
 //! The algorithm's outer loop: plan a step, take it, handle its event, until the communication time is reached.
 
+pub mod choose;
 pub mod events;
 pub mod fast_flight;
-pub mod plan;
 pub mod stops;
 
 use crate::engine::base::Base;

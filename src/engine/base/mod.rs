@@ -3,6 +3,7 @@
 pub(super) mod clearance;
 pub(super) mod contact;
 pub(super) mod counters;
+pub(super) mod kinds;
 pub(super) mod numbers;
 pub(super) mod peaks;
 pub(super) mod planned;

@@ -102,18 +102,9 @@ impl Account {
 
 impl Counters {
     pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
-        let &Counters {
-            flight_steps,
-            narrow_phase_pieces,
-            flights_cleared,
-            pairs_evaluated,
-            contact_steps,
-            yielding_steps,
-            law_evaluations,
-            events,
-            energy_steps,
-        } = self;
-        let in_flight = [flight_steps, narrow_phase_pieces, flights_cleared, pairs_evaluated];
-        in_flight.into_iter().chain([contact_steps, yielding_steps, law_evaluations, events, energy_steps])
+        let &Counters { taken, refused, narrow_phase_pieces, pairs_evaluated, law_evaluations, events, energy_steps } =
+            self;
+        let others = [narrow_phase_pieces, pairs_evaluated, law_evaluations, events, energy_steps];
+        taken.into_iter().chain(refused).chain(others)
     }
 }

@@ -130,6 +130,15 @@ impl First {
     }
 }
 
+/// How far a step with forces may reach.
+#[derive(Clone, Copy)]
+pub(crate) struct Horizon {
+    /// s, from the base on.
+    pub remaining: f64,
+    /// Whether that has been shortened, so that the step does not reach the limit.
+    pub is_cut: bool,
+}
+
 /// The start of a step: the base, the inputs that act on it, and the counts of work.
 pub(crate) struct At<'a> {
     pub base: &'a mut Base,

@@ -126,7 +126,7 @@ impl GroundMotion {
 
     /// The work over flights of the length of a segment, s, where it has been prepared.
     pub(crate) fn work_over(&self, length: f64) -> Option<&FlightWork> {
-        self.work.iter().find(|work| work.length == length)
+        self.work.iter().find(|work| work.length == length && !cfg!(without = "flight_work"))
     }
 
     /// The longest of the prepared lengths, s: that of all segments of an even record.

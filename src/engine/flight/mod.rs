@@ -10,6 +10,7 @@ pub mod search;
 pub mod workspace;
 
 use crate::engine::base::Base;
+use crate::engine::base::kinds::Kind;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::bounds::certificate::{Certificate, stays_below};
 use crate::engine::flight::broad_phase::BroadPhase;
@@ -34,7 +35,8 @@ impl Flight {
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
-    /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event.
+    /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event; returns
+    /// what has shown that there is none, or found it.
     pub fn plan(
         &self,
         system: &System,
@@ -43,29 +45,30 @@ impl Flight {
         planned: &mut Planned,
         look: &mut Look,
         work: &mut Buffers,
-    ) {
-        at.counters.flight_steps += 1;
+    ) -> Kind {
         planned.plan(longest, None, planned.reaches_limit, None);
         system.fly(at.base, longest, work, planned.motion_mut());
         if system.limits() == 0 {
-            return;
+            return Kind::Cleared;
         }
         let watched = system.watched_segment(at.base);
         let segment = watched.map(|(_, segment)| segment);
         if let Some((ground, segment)) = watched
             && self.broad_phase.dismiss(system, ground, at.base, segment, at.counters, &mut work.node_v)
         {
-            at.counters.flights_cleared += 1;
             planned.ends.resize(system.pairs.len(), None);
-        } else if !self.both_ends_hold(system, at, planned, (look, work), segment) {
-            let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
-            planned.ends.clear();
-            let loads = work.loads();
-            if is_over || !system.envelopes_stay_within(at.base, at.base.motion(), loads, longest) {
-                let certificate = &self.certificate;
-                Search { certificate, system, base: at.base, look, work }.first_event(planned, at.counters);
-            }
+            return Kind::Cleared;
         }
+        if self.both_ends_hold(system, at, planned, (look, work), segment) {
+            return Kind::ByEnds;
+        }
+        let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
+        planned.ends.clear();
+        if !is_over && system.envelopes_stay_within(at.base, at.base.motion(), work.loads(), longest) {
+            return Kind::ByAmplitudes;
+        }
+        Search { certificate: &self.certificate, system, base: at.base, look, work }.first_event(planned, at.counters);
+        Kind::Searched
     }
 
     /// Whether both ends of the planned flight prove that no pair meets and no storey yields in it; what is cleared for

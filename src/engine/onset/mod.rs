@@ -10,9 +10,9 @@ pub mod series;
 
 use crate::contact::Force;
 use crate::contact::onset::{Grid, MOST_TERMS};
-use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::{At, Planned};
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::kinds::Refusal;
+use crate::engine::base::planned::Planned;
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::onset::series::{OnsetSeries, expand};
 use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian};
 use crate::engine::system::System;
@@ -21,17 +21,19 @@ use crate::engine::system::buffers::Buffers;
 /// Highest power of x in the double series: its cost grows with the square of this, its reach hardly.
 const HIGHEST: f64 = 8.0;
 
-/// Plans the first step of an episode, under the load in `work`; returns `false` if a Taylor step has to do it: for
-/// entries with hardly any approach velocity, or under different laws at the same instant.
+/// Plans the first step of an episode, under the load in `work`, or says why it cannot be this one.
 pub fn plan(
     system: &System,
-    At { base, counters, .. }: &mut At,
+    base: &Base,
     remaining: f64,
     planned: &mut Planned,
     onset: &mut OnsetSeries,
     work: &mut Buffers,
-) -> bool {
-    let Some((grid, scale)) = system.onset_grid(base, work, remaining) else { return false };
+) -> Result<(), Refusal> {
+    if cfg!(without = "onset") {
+        return Err(Refusal::SwitchedOff);
+    }
+    let (grid, scale) = system.onset_grid(base, work, remaining)?;
     onset.start(base, &system.pairs, grid, scale);
     let loads = work.loads();
     let (structure, coordinates) = (&system.structure, base.coordinates);
@@ -40,32 +42,33 @@ pub fn plan(
         Coordinates::Modes => expand(onset, structure, coordinates, loads, &ModalJacobian(&system.pairs)),
     }
     let reach = system.onset_reach(base, onset, &grid).min(remaining / scale);
-    let Some(x) = system.certain_reach(base, onset, &mut work.node_q, reach) else {
-        return false;
-    };
-    counters.contact_steps += 1;
-    counters.law_evaluations += base.count_forces(Contact::branch);
+    let x = system.certain_reach(base, onset, &mut work.node_q, reach).ok_or(Refusal::Uncertain)?;
     let reaches_limit = x * scale >= remaining;
     let length = if reaches_limit { remaining } else { x * scale };
     planned.plan(length, None, reaches_limit, Some(length));
     onset.read(length / scale);
     onset.evaluate(length / scale, &mut planned.q, &mut planned.v);
-    true
+    Ok(())
 }
 
 impl System {
     /// The exponents of the series, common to all entering pairs, and its time scale, s: at most the shortest time in
     /// which one of these pairs would turn round.
-    fn onset_grid(&self, base: &Base, work: &mut Buffers, remaining: f64) -> Option<(Grid, f64)> {
+    fn onset_grid(&self, base: &Base, work: &mut Buffers, remaining: f64) -> Result<(Grid, f64), Refusal> {
+        if !touching(base).any(|(_, contact)| contact.is_singular()) {
+            return Err(Refusal::NoEntry);
+        }
         let mut found: Option<Grid> = None;
         let mut scale = self.series_scale(base, remaining);
         let allowed = self.tolerance.step * base.velocity_scale;
         self.accelerate(base.coordinates, base.motion(), &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
             let force = contact.branch();
-            let grid = Grid::of(&force, HIGHEST)?;
-            if found.is_some_and(|other| other.beta != grid.beta) || contact.rate <= 0.0 {
-                return None;
+            let grid = Grid::of(&force, HIGHEST).ok_or(Refusal::MixedEntries)?;
+            match () {
+                _ if found.is_some_and(|other| other.beta != grid.beta) => return Err(Refusal::MixedEntries),
+                _ if contact.rate <= 0.0 => return Err(Refusal::WeakEntry),
+                _ => {}
             }
             found = Some(grid);
             let pair = &self.pairs[p];
@@ -74,10 +77,10 @@ impl System {
             let overtaken = contact.rate / self.pairs[p].relative(base.coordinates, &work.q).abs();
             let gained = force.value(1.5 * contact.rate * overtaken, contact.rate) * overtaken / pair.mass;
             if gained < allowed {
-                return None;
+                return Err(Refusal::WeakEntry);
             }
         }
-        found.map(|grid| (grid, scale))
+        found.map(|grid| (grid, scale)).ok_or(Refusal::NoEntry)
     }
 
     /// The x up to which the last terms are below the tolerance. Free masses have only the terms x^(1 + beta j); so all

@@ -92,7 +92,7 @@ impl Model {
             ahead.forget();
         }
         known.entries = log.count();
-        if ahead.are_none() && log.is_open() && count <= OFTEN {
+        if !cfg!(without = "ahead") && ahead.are_none() && log.is_open() && count <= OFTEN {
             peaks.clone_from(folded);
             self.peaks().look_at_flights_ahead(base, ahead, peaks, work);
         }

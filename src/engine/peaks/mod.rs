@@ -78,7 +78,8 @@ impl PeakFinder<'_> {
 
     /// Whether flights are logged, and the peaks raised over them later.
     pub(in crate::engine) fn logs_flights(&self) -> bool {
-        !self.watched.rows.are_none() && self.system.structure.in_flight().is_classical()
+        let is_possible = !self.watched.rows.are_none() && self.system.structure.in_flight().is_classical();
+        is_possible && !cfg!(without = "flight_log")
     }
 
     /// Logs the planned flight.

@@ -72,7 +72,7 @@ impl PeakFinder<'_> {
         self.set_load(flight, piece.from, work);
         let PeakRoom { pieces: [q, v, left_q, left_v], load, creeps, .. } = &mut *work.peaks;
         for m in modes.clone() {
-            let is_quick = fastest_of(moving, m) * (piece.to - piece.from) > LEAF_ANGLE;
+            let is_quick = !cfg!(without = "settled") && fastest_of(moving, m) * (piece.to - piece.from) > LEAF_ANGLE;
             let Rest { creep, quick, .. } = Rest::of(moving, m, (q[m], v[m]), (load[m], flight.loads.slope[m]));
             ([left_q[m], left_v[m]], creeps[m]) = (quick, if is_quick { creep } else { f64::NAN });
         }

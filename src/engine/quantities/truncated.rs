@@ -25,7 +25,7 @@ use std::ops::Range;
 /// Modes with w h up to this, in segments of the usual length h, are slow.
 const SLOW: f64 = 2.0;
 /// Of a body with so few modes all are slow.
-const FEW: usize = 12;
+const FEW: usize = if cfg!(without = "truncation") { usize::MAX } else { 12 };
 /// Least number of quick modes.
 const LEAST: usize = 5;
 /// Number of groups of the quick modes.

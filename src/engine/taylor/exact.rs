@@ -1,7 +1,8 @@
 //! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the
 //! fastest mode is exact. What both of its ends prove not to happen needs no search.
 
-use crate::engine::base::planned::{At, First, Planned};
+use crate::engine::base::kinds::Refusal;
+use crate::engine::base::planned::{First, Horizon, Planned};
 use crate::engine::base::{Base, touching};
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::system::System;
@@ -13,24 +14,20 @@ use crate::structure::Motion;
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
 
-/// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
-/// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the
-/// limit.
+/// Plans a step from the base, under the load in `work`, if no contact is closed.
 pub fn plan_exact(
     system: &System,
-    at: &mut At,
-    (remaining, is_cut): (f64, bool),
+    base: &Base,
+    Horizon { remaining, is_cut }: Horizon,
     planned: &mut Planned,
     solution: &mut Solution,
     work: &mut Buffers,
-) -> bool {
-    let base = &*at.base;
+) -> Result<(), Refusal> {
     if touching(base).next().is_some() {
-        return false;
+        return Err(Refusal::InContact);
     }
     let length = remaining.min(REACH / system.fastest);
     system.expand_exactly(base, solution, work, length);
-    at.counters.yielding_steps += 1;
     system.end_at(1.0, solution, planned);
     let First { until, event } = system.first_of_exact(base, (length, planned), solution, work);
     if event.is_some() {
@@ -40,7 +37,7 @@ pub fn plan_exact(
     // The scale of contact does not change while none is closed.
     planned.plan(length * solution.end.x, event, reaches_limit, None);
     system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
-    true
+    Ok(())
 }
 
 impl System {

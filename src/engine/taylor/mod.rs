@@ -23,28 +23,25 @@ pub mod step_size;
 pub mod switches;
 pub mod time_map;
 
-use crate::engine::base::planned::{At, Event, First, Planned};
+use crate::engine::base::kinds::Kind;
+use crate::engine::base::planned::{Event, First, Horizon, Planned};
 use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 
-/// Plans a step from the base over `remaining` seconds at most, under the load in `work`; `is_cut` if the remaining
-/// time has been shortened, so that the step does not reach the limit.
+/// Plans a step from the base, under the load in `work`; returns of which kind it is.
 pub fn plan(
     system: &System,
-    at: &mut At,
-    (remaining, is_cut): (f64, bool),
+    base: &mut Base,
+    Horizon { remaining, is_cut }: Horizon,
     planned: &mut Planned,
     solution: &mut Solution,
     work: &mut Buffers,
-) {
-    let base = &mut *at.base;
+) -> Kind {
     let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
     let scale = system.series_scale(base, remaining);
     system.expand(base, solution, work, scale);
-    at.counters.contact_steps += 1;
-    at.counters.law_evaluations += solution.closed.count_forces();
     let reach = system.reach(base, solution, work, (is_singular, remaining));
     let is_whole = solution.series.x_at(remaining) <= reach;
     let end = if is_whole { solution.series.x_at(remaining) } else { reach };
@@ -60,6 +57,7 @@ pub fn plan(
             base.contacts[p].reaction = reaction[0];
         }
     }
+    if solution.series.time_map.curvature == 0.0 { Kind::Series } else { Kind::Mapped }
 }
 
 impl System {

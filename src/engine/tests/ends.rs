@@ -7,7 +7,7 @@ use super::motions::{
 };
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::{At, Event, First, Planned};
+use crate::engine::base::planned::{At, Event, First, Horizon, Planned};
 use crate::engine::bounds::certificate::Certificate;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
@@ -158,12 +158,13 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
             }
             let Case { system, work, .. } = &mut case;
             system.load(&base, &inputs, &mut work.load, &mut work.slope);
-            let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
             if is_flight {
+                let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
                 let mut look = Look::new(row.sizes.len(), 4);
                 Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
             } else {
-                assert!(plan_exact(system, &mut at, (time, false), &mut planned, &mut Solution::new(system), work));
+                let (horizon, solution) = (Horizon { remaining: time, is_cut: false }, &mut Solution::new(system));
+                assert!(plan_exact(system, &base, horizon, &mut planned, solution, work).is_ok());
             }
             !matches!(planned.event, Some(Event::Entry(_) | Event::Yield(..)))
         });

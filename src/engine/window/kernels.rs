@@ -3,6 +3,7 @@
 use crate::collocation::{Kernel, Map, POWERS, Tables};
 use crate::contact::Force;
 use crate::engine::base::Coordinates;
+use crate::engine::base::kinds::Refusal;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
@@ -32,21 +33,27 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// For a system; `None` where there are no windows: no law is for them, damping couples the modes, or contacts are
-    /// worked out on floors.
-    pub fn of(system: &System) -> Option<Windows> {
+    /// For a system, or why it has none.
+    pub fn of(system: &System) -> Result<Windows, Refusal> {
         let System { impulse_response, pairs, tolerance, contact_coordinates, .. } = system;
-        if cfg!(without = "windows") || *contact_coordinates != Coordinates::Modes {
-            return None;
+        if cfg!(without = "windows") {
+            return Err(Refusal::SwitchedOff);
         }
-        let (response, maps) = (impulse_response.as_ref()?, maps(pairs)?);
+        if !pairs.iter().any(Pair::has_power_law) {
+            return Err(Refusal::NoRoot);
+        }
+        let maps = maps(pairs).ok_or(Refusal::OddExponent)?;
+        if *contact_coordinates != Coordinates::Modes {
+            return Err(Refusal::ByFloors);
+        }
+        let response = impulse_response.as_ref().ok_or(Refusal::CoupledDamping)?;
         Tables::prepare(maps);
         let known = if pairs.len() <= MOST_KNOWN { &pairs[..] } else { &[] };
         let kernels =
             known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row.modes, &q.row.modes))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
+        Ok(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
     }
 
     /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.

@@ -14,9 +14,9 @@ pub mod trial;
 
 use crate::collocation::{Ending, MOST_PAIRS, Tables, WindowWorkspace};
 use crate::contact::Force;
-use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::{At, Event, Planned};
-use crate::engine::base::{Base, Coordinates, touching};
+use crate::engine::base::kinds::Refusal;
+use crate::engine::base::planned::{Event, Planned};
+use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
@@ -50,34 +50,30 @@ enum Verdict {
     Good,
     /// Another window is to be tried.
     Another(Trial),
-    /// No window: the step is taken by power series.
-    Reject,
+    /// No window.
+    Reject(Refusal),
 }
 
 impl Windows {
-    /// Plans a window from the base, over `remaining` seconds at most and under the load in `work`; returns `false` if
-    /// the step has to be taken by power series. `series` is for the motion without contact forces.
+    /// Plans a window from the base, over `remaining` seconds at most and under the load in `work`, or says why there is
+    /// none. `series` is for the motion without contact forces.
     pub fn plan(
         &self,
         system: &System,
-        at: &mut At,
+        base: &Base,
         remaining: f64,
         planned: &mut Planned,
         (window, series): (&mut Window, &mut MotionSeries),
         (room, work): (&mut WindowWorkspace, &mut Buffers),
-    ) -> bool {
-        let base = &*at.base;
-        if base.coordinates != Coordinates::Modes || !window.gather(base) {
-            return false;
-        }
+    ) -> Result<(), Refusal> {
+        window.gather(base)?;
         let (whole, remaining) = (remaining, remaining.min(self.longest(system)));
-        let Some(mut trial) = self.trial(system, base, window, remaining) else { return false };
-        if self.set_equation(system, base, (window, series), work, trial.room()).is_none() {
-            return false;
-        }
+        let mut trial = self.trial(system, base, window, remaining).ok_or(Refusal::StiffDashpot)?;
+        let equation = self.set_equation(system, base, (window, series), work, trial.room());
+        equation.ok_or(Refusal::QuickModes)?;
         let free = &*series;
         if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
-            return false;
+            return Err(Refusal::AtRest);
         }
         self.watch(system, base, (window, free), trial.length);
         let tolerance = system.tolerance.step * base.velocity_scale;
@@ -98,16 +94,14 @@ impl Windows {
             window.close();
             match self.assess(system, base, (window, free), work, trial, tolerance) {
                 Verdict::Good => {
-                    at.counters.contact_steps += 1;
-                    at.counters.law_evaluations += base.count_forces(Contact::branch);
                     window.commit(system, free, planned, work, trial.ending, whole);
-                    return true;
+                    return Ok(());
                 }
                 Verdict::Another(next) => trial = next,
-                Verdict::Reject => return false,
+                Verdict::Reject(why) => return Err(why),
             }
         }
-        false
+        Err(Refusal::Unsolved)
     }
 
     /// Sets the motion without contact forces and the kernels for windows up to `longest`, s, if series reach that far.
@@ -182,7 +176,7 @@ impl Windows {
         if let Ending::Release(place) = trial.ending
             && solution.end[place].1 >= 0.0
         {
-            return Verdict::Reject;
+            return Verdict::Reject(Refusal::NotReleased);
         }
         let error = solution.velocity_error(equation) / tolerance;
         let allowed = self.allowed;
@@ -196,7 +190,7 @@ impl Windows {
         match self.is_certain(system, base, (window, free), work, trial.ending) {
             true => Verdict::Good,
             // An event may be so near that bounds cannot exclude it: power series find it.
-            false if trial.ending != Ending::Given || trial.halved => Verdict::Reject,
+            false if trial.ending != Ending::Given || trial.halved => Verdict::Reject(Refusal::Uncertain),
             false => Verdict::Another(Trial { halved: true, ..trial.shorter(0.5) }),
         }
     }
@@ -217,16 +211,19 @@ fn first_node(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option
 }
 
 impl Window {
-    /// Lists the pairs in contact; returns whether they are few enough and under laws that windows are for.
-    fn gather(&mut self, base: &Base) -> bool {
+    /// Lists the pairs in contact, if they are few enough and under laws that windows are for.
+    fn gather(&mut self, base: &Base) -> Result<(), Refusal> {
         self.equation.closed = 0;
         for (p, contact) in touching(base) {
             let force = contact.branch();
             // An entry with an approach velocity of only rounding is left to other kinds of step.
             let enters = contact.penetration > 0.0 || contact.rate > 0.0;
             let place = self.equation.closed;
-            if place == MOST_PAIRS || contact.is_held() || !are_for(&force) || !enters {
-                return false;
+            match () {
+                _ if place == MOST_PAIRS => return Err(Refusal::ManyContacts),
+                _ if contact.is_held() || !are_for(&force) => return Err(Refusal::OtherLaw),
+                _ if !enters => return Err(Refusal::SlowEntry),
+                _ => {}
             }
             self.contacts[place] = p;
             self.equation.forces[place] = force;
@@ -234,7 +231,8 @@ impl Window {
         }
         let closed = self.equation.closed;
         self.equation.pairs = closed;
-        closed <= MOST_DAMPED || self.equation.forces[..closed].iter().all(|force| !force.is_damped())
+        let damped = self.equation.forces[..closed].iter().filter(|force| force.is_damped()).count();
+        if closed > MOST_DAMPED && damped > 0 { Err(Refusal::ManyDashpots) } else { Ok(()) }
     }
 
     /// Whether a pair is pressed together almost without motion: its contact force and the forces that it balances

@@ -97,7 +97,7 @@ fn a_graze_that_is_pressed_on_comes_to_the_equilibrium_of_the_spring() {
             let passed = force * 2.0 + 0.5 * MASS * speed;
             assert_close(contact.impulse, passed, 1e-9, &format!("{what}: impulse"));
             assert!(run.energy().residual.abs() < 1e-9, "{what}: {:?}", run.energy());
-            let steps = run.state.counters().contact_steps;
+            let steps = run.state.counters().contact_steps();
             assert!(steps < 400_000, "{what}: {steps} steps");
         }
     }
@@ -153,7 +153,7 @@ fn leaning_frames_stay_where_the_springs_balance() {
             assert!(error < 1e-12, "{law}: {error:e} after {} s", 10 * k);
         }
         let period = 2.0 * PI / (left / 25e3_f64).sqrt();
-        let steps = run.state.counters().contact_steps as f64;
+        let steps = run.state.counters().contact_steps() as f64;
         assert!(steps < 60.0 * 1000.0 / period, "{law}: {steps} steps for {} periods", 1000.0 / period);
     }
 }
