@@ -30,7 +30,7 @@ const LET_GO: [(&str, f64, &str, &str, &[&str]); 4] = [
         "mass = [3e4, 2e4]\nstiffness = [3e7, 2e7]\ndamping = { ratio = 0.01 }\ninitial_velocity = [-1.0, -1.0]",
         &[
             "left_floor = 1\nright_floor = 1\ngap = 0.0\nlaw = \"hertz\"\nstiffness = 1e9",
-            "left_floor = 2\nright_floor = 2\ngap = 0.0\nlaw = \"jankowski\"\nstiffness = 1e9\nrestitution = 0.6",
+            "left_floor = 2\nright_floor = 2\ngap = 0.0\nlaw = \"hertz\"\nstiffness = 1e9\nexponent = 1.7",
         ],
     ),
     (

@@ -67,8 +67,6 @@ pub enum Refusal {
     OtherLaw,
     /// No window: a contact enters with an approach velocity of only rounding.
     SlowEntry,
-    /// No window: several dashpots act at once.
-    ManyDashpots,
     /// No window: a dashpot is too stiff for its sweeps, or a number of a contact overflows.
     StiffDashpot,
     /// No window: it would be longer than the series of the motion or of the kernels reach.
@@ -93,7 +91,7 @@ pub enum Refusal {
 
 impl Refusal {
     /// All of them.
-    pub const ALL: [Refusal; 21] = [
+    pub const ALL: [Refusal; 20] = [
         Refusal::SwitchedOff,
         Refusal::NearRigid,
         Refusal::Yielding,
@@ -104,7 +102,6 @@ impl Refusal {
         Refusal::ManyContacts,
         Refusal::OtherLaw,
         Refusal::SlowEntry,
-        Refusal::ManyDashpots,
         Refusal::StiffDashpot,
         Refusal::QuickModes,
         Refusal::AtRest,

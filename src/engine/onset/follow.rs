@@ -18,7 +18,7 @@ impl Contact {
     /// Moves the contact over 0..=x of an onset step that began at the time `start`, s: penetration, impulse, peaks and
     /// work.
     pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
-        let Some(grid) = &onset.grid else { return };
+        let Some(grid) = &onset.grid else { return debug_assert!(false, "an onset step has been planned") };
         let ((block, lane), scale) = (onset.packed.of(self.episode.contact), onset.scale);
         let reading = &onset.readings[onset.packed.place(self.episode.contact).0];
         let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };

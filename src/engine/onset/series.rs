@@ -94,7 +94,7 @@ impl OnsetSeries {
 
     /// Evaluates all blocks at x.
     pub fn read(&mut self, x: f64) {
-        let Some(grid) = &self.grid else { return };
+        let Some(grid) = &self.grid else { return debug_assert!(false, "an onset step has been started") };
         self.powers.set(grid, x);
         for (reading, (block, _)) in self.readings.iter_mut().zip(self.packed.all()) {
             *reading = block.read(&self.powers);
@@ -103,7 +103,7 @@ impl OnsetSeries {
 
     /// Writes bounds on the magnitudes of the forces up to x, N, one per contact.
     pub fn bound_forces(&self, contacts: &[Contact], x: f64, out: &mut [f64]) {
-        let Some(grid) = &self.grid else { return };
+        let Some(grid) = &self.grid else { return debug_assert!(false, "an onset step has been started") };
         for (p, out) in out.iter_mut().enumerate().filter(|(p, _)| contacts[*p].in_contact()) {
             let (block, lane) = self.packed.of(p);
             // The stored terms are those of the force times x.
@@ -114,7 +114,7 @@ impl OnsetSeries {
 
     /// Displacements and velocities at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
-        let Some(grid) = &self.grid else { return };
+        let Some(grid) = &self.grid else { return debug_assert!(false, "an onset step has been started") };
         let other;
         let powers = if self.powers.x == x {
             &self.powers
@@ -136,7 +136,7 @@ pub fn expand<M: ContactJacobian>(
     loads: LinearLoad,
     jacobian: &M,
 ) {
-    let Some(grid) = onset.grid else { return };
+    let Some(grid) = onset.grid else { return debug_assert!(false, "an onset step has been started") };
     for j in 0..grid.rows {
         for block in onset.packed.all_mut().0.iter_mut().filter(|block| block.enters) {
             block.extend_entering_row(&grid, &onset.products[1], j);

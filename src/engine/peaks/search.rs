@@ -358,7 +358,9 @@ impl PeakFinder<'_> {
         let moving = self.system.structure.in_flight();
         let by_halves = !moving.is_classical() && moving.fastest * flight.length > LEAVES as f64 * LEAF_ANGLE;
         let PeakWork { buffers: Buffers { scratch, .. }, peaks } = work;
-        let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else { return };
+        let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else {
+            return debug_assert!(false, "a motion is two vectors of the pieces");
+        };
         let known = match time {
             _ if time == 0.0 => flight.start,
             _ if time == flight.length => flight.end,

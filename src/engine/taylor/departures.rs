@@ -128,7 +128,9 @@ impl System {
 
     /// Looks for the instant at which the reaction of a held pair falls to 0.
     fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, first: &mut First) {
-        let Some(k) = self.rigid.pairs.iter().position(|&pair| pair == p) else { return };
+        let Some(k) = self.rigid.pairs.iter().position(|&pair| pair == p) else {
+            return debug_assert!(false, "a held pair is a rigid one");
+        };
         let noise = self.acceleration_noise(p, &solution.series, first.until) / self.rigid.matrix[(k, k)];
         let force = &solution.reactions[k][..=solution.reaction_order];
         let pull = &mut work.scalar[..force.len()];

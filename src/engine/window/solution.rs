@@ -184,7 +184,9 @@ impl Window {
         MotionMut { q, v }: MotionMut,
         pairs: &mut [(f64, f64)],
     ) {
-        let Some(response) = &system.impulse_response else { return };
+        let Some(response) = &system.impulse_response else {
+            return debug_assert!(false, "a window has a response to impulses");
+        };
         powers.set(elapsed / free.scale, free.order);
         free.evaluate(powers, q, v);
         let mut room = None;
@@ -202,7 +204,9 @@ impl Contact {
     /// Moves the contact to `elapsed` seconds into a window that began at the time `start`, s: penetration, impulse,
     /// peaks and work.
     pub fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
-        let Some(place) = window.place(self.episode.contact) else { return };
+        let Some(place) = window.place(self.episode.contact) else {
+            return debug_assert!(false, "a closed contact is in the window");
+        };
         let law = self.branch();
         let solution = &window.solution;
         let nodes = nodes(solution.rule);
