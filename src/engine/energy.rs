@@ -13,9 +13,8 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
-use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
+use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss};
 use crate::numerics::sum::Sum;
 use crate::structure::{Counts, FlightWork, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
@@ -187,14 +186,12 @@ impl System {
                 series.set_powers(length, &mut work.powers);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
-            Dense::Onset(onset) => {
-                let motion =
-                    |t: f64, _: &mut Powers, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
-                self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
-                onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
-            }
-            Dense::Window(window, series) => {
-                self.integrate_window(base, (window, series), length, work, &mut done);
+            Dense::Onset(_) | Dense::Window(..) => {
+                let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
+                    step.evaluate_with_pairs(self, t, powers, MotionMut { q, v }, &mut []);
+                };
+                motion(length, &mut work.powers, &mut work.q, &mut work.v);
+                self.integrate(base, motion, step.quadrature(length), 0.0, work, &mut done);
             }
         }
         // Work of the floor forces at their values at the base; the quadratures add that of their change.
@@ -246,22 +243,6 @@ impl System {
             counts
         });
         self.fly_in(base, length, work);
-    }
-
-    /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
-    fn integrate_window(
-        &self,
-        base: &Base,
-        (window, series): (&Window, &MotionSeries),
-        length: f64,
-        work: &mut Buffers,
-        done: &mut Work,
-    ) {
-        window.evaluate(self, (series, &mut work.powers), length, MotionMut { q: &mut work.q, v: &mut work.v });
-        let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
-            window.evaluate(self, (series, powers), t, MotionMut { q, v });
-        };
-        self.integrate(base, motion, window.nodes(length), 0.0, work, done);
     }
 
     /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in

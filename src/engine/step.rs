@@ -1,6 +1,7 @@
 //! The dense solution from the base on, by one of a few kinds of step. Motion and contacts within a step are read here,
 //! whatever its kind; code that needs more of it matches on [`Step::dense`].
 
+use crate::collocation::{Map, NODES};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::kinds::Kind;
@@ -13,6 +14,7 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
+use crate::numerics::quadrature::{TWELVE, gauss, graded};
 use crate::structure::{Motion, MotionMut, MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
@@ -135,14 +137,60 @@ impl Step {
                     system.fly(base, elapsed, work, MotionMut { q, v });
                 }
             }
+            _ => self.evaluate_with_pairs(system, elapsed, &mut work.powers, MotionMut { q, v }, &mut []),
+        }
+    }
+
+    /// The same of a step with forces; and the (penetration, m, rate, m/s) of each closed pair, by its number, where `pairs` has
+    /// room for all. Pairs that a power series holds are read from that.
+    pub(super) fn evaluate_with_pairs(
+        &self,
+        system: &System,
+        elapsed: f64,
+        powers: &mut Powers,
+        MotionMut { q, v }: MotionMut,
+        pairs: &mut [(f64, f64)],
+    ) {
+        match self.dense() {
+            Dense::Flight => debug_assert!(false, "a flight is worked out from its load"),
             Dense::Taylor(Solution { series, .. }) => {
-                series.set_powers(elapsed, &mut work.powers);
-                series.evaluate(&work.powers, q, v);
+                series.set_powers(elapsed, powers);
+                series.evaluate(powers, q, v);
             }
-            Dense::Onset(onset) => onset.evaluate(elapsed / onset.scale, q, v),
+            Dense::Onset(onset) => onset.evaluate_with_pairs(elapsed / onset.scale, MotionMut { q, v }, pairs),
             Dense::Window(window, series) => {
-                window.evaluate(system, (series, &mut work.powers), elapsed, MotionMut { q, v });
+                window.evaluate_with_pairs(system, (series, powers), elapsed, MotionMut { q, v }, pairs);
             }
+        }
+    }
+
+    /// Times, s, and weights, s, of a quadrature over the first `length` seconds of a step with forces, for the whole motion.
+    pub(super) fn quadrature(&self, length: f64) -> impl Iterator<Item = (f64, f64)> {
+        let mut nodes = [(0.0, 0.0); NODES];
+        let mut count = 0;
+        let mut enter = |node| {
+            nodes[count] = node;
+            count += 1;
+        };
+        match self.dense() {
+            Dense::Taylor(_) | Dense::Flight => gauss(TWELVE, length).for_each(&mut enter),
+            Dense::Onset(_) => graded(TWELVE, length).for_each(&mut enter),
+            Dense::Window(window, _) => window.nodes(length).for_each(&mut enter),
+        }
+        nodes.into_iter().take(count)
+    }
+
+    /// The map from 0..1 to the time of a step in which its motion is smooth, where it is no power series, and the x from
+    /// which on its accelerations are to be read: at an entry under a power law they have no finite slope, and the terms of an
+    /// onset step are divided by powers of the time.
+    pub(super) fn smooth_in(&self) -> (Map, f64) {
+        match self.dense() {
+            Dense::Onset(_) => (Map::FourthStart, 0.03),
+            Dense::Window(window, _) => match window.solution.map.without_end() {
+                Map::Plain => (Map::Plain, 0.0),
+                map => (map, 1e-3),
+            },
+            Dense::Taylor(_) | Dense::Flight => (Map::Plain, 0.0),
         }
     }
 

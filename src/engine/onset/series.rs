@@ -9,7 +9,7 @@ use crate::engine::pairs::jacobian::ContactJacobian;
 use crate::engine::pairs::packing::PackedBlocks;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
-use crate::structure::{LANES, Lane, LinearLoad, Structure, sum_terms};
+use crate::structure::{LANES, Lane, LinearLoad, MotionMut, Structure, sum_terms};
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
@@ -55,11 +55,6 @@ impl OnsetSeries {
             readings: vec![OnsetReading::default(); packed.most()],
             packed,
         }
-    }
-
-    /// The exponents of its terms, once it has been started.
-    pub fn grid(&self) -> Option<&Grid> {
-        self.grid.as_ref()
     }
 
     /// The term of the motion with that index in the grid of exponents.
@@ -114,6 +109,11 @@ impl OnsetSeries {
 
     /// Displacements and velocities at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+        self.evaluate_with_pairs(x, MotionMut { q, v }, &mut []);
+    }
+
+    /// The same, and the (penetration, m, rate, m/s) of each pair in contact, by its number, where `pairs` has room for all.
+    pub fn evaluate_with_pairs(&self, x: f64, MotionMut { q, v }: MotionMut, pairs: &mut [(f64, f64)]) {
         let Some(grid) = &self.grid else { return debug_assert!(false, "an onset step has been started") };
         let other;
         let powers = if self.powers.x == x {
@@ -124,6 +124,15 @@ impl OnsetSeries {
         };
         let terms = &self.terms[..grid.terms() * self.lanes];
         sum_terms(terms, powers.all(), 1.0 / self.scale, &mut q[..self.lanes], &mut v[..self.lanes]);
+        if pairs.is_empty() {
+            return;
+        }
+        for (block, members) in self.packed.all() {
+            let reading = block.read(powers);
+            for (lane, p) in members.lanes() {
+                pairs[p] = (reading.penetration[lane], reading.slope[lane] / self.scale);
+            }
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
-use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
+use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, OpenQuantity, PeakRoom, PeakWork};
 use crate::engine::peaks::step_log::StepLog;
 use crate::engine::quantities::rows::PeakOf;
@@ -289,11 +289,9 @@ impl PeakFinder<'_> {
             Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
-            Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),
-            // Whatever else is known: what is found does not depend on when the window is searched.
-            Dense::Window(window, series) => {
-                let ends = larger(at_start.abs(), at_end.abs());
-                self.highest_in_window(&quantity, ends, (window, series), part, work)
+            // Whatever else is known: what is found does not depend on when the step is searched.
+            Dense::Onset(_) | Dense::Window(..) => {
+                self.highest_by_readings(&quantity, larger(at_start.abs(), at_end.abs()), part, work)
             }
             Dense::Taylor(Solution { series, substitution, end, .. }) => {
                 let (terms, order) = quantity.terms(series, Some(substitution));

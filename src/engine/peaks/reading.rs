@@ -1,27 +1,17 @@
 //! The largest magnitude of a quantity in a step without a power series in time: an onset step or a window. Such a step
 //! is part of one oscillation of the contact, so that a few readings find every turning point.
 
-use crate::collocation::{MOST_PAIRS, Map};
-use crate::contact::onset::{GridTerms, MOST_TERMS, value_and_slope};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
-use crate::engine::onset::series::OnsetSeries;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest_by};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::Step;
-use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::{LinearGround, Motion, MotionMut, MotionSeries};
-
-/// The x at which a step that begins with an entry is first read: at 0 forces of power laws have no finite slope, and the terms
-/// of an onset step are divided by powers of the time.
-const START: f64 = 1e-3;
-/// The same of an onset step.
-const START_OF_ONSET: f64 = 0.03;
+use crate::structure::{LinearGround, Motion, MotionMut};
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -52,45 +42,22 @@ impl<'a> ContactStep<'a> {
     }
 }
 
-/// The largest magnitude of a quantity in the first part of a step, up to the time `until`, s, or `known` if that is larger: in
-/// the x of a map, in which forces that begin like a root of the time are smooth, from a `start` on.
-fn search_mapped(
-    (known, until): (f64, f64),
-    (map, start, length): (Map, f64, f64),
-    mut read: impl FnMut(f64) -> Knot,
-) -> f64 {
-    let until = if until < length { map.inverse(until / length) } else { 1.0 };
-    highest_by_readings((known, until), [start, 1.0], |x| {
-        let (theta, rate) = map.at(x);
-        let Knot { value, slope, .. } = read(length * theta);
-        Knot { x, value, slope: length * rate * slope }
-    })
-}
-
-/// The largest magnitude of a quantity in the first part of an onset step, or `known` if that is larger.
-pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, part: &ContactStep) -> f64 {
-    let ContactStep { step, length: until, .. } = part;
-    let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
-    search_mapped((known, *until), (Map::FourthStart, START_OF_ONSET, step.planned.length), |time| {
-        series.read(time, onset, quantity.ground)
-    })
-}
-
 impl PeakFinder<'_> {
-    /// The largest magnitude of a quantity in the first part of a window, or `known` if that is larger; with the series
-    /// of the motion without contact forces.
-    pub(in crate::engine) fn highest_in_window(
+    /// The largest magnitude of a quantity in the first part of a step that is no power series, or `known` if that is larger: in
+    /// the x of a map, in which forces that begin like a root of the time are smooth.
+    pub(in crate::engine) fn highest_by_readings(
         &self,
         quantity: &Quantity,
         known: f64,
-        window: (&Window, &MotionSeries),
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
-        let map = window.0.solution.map.without_end();
-        let start = if map == Map::Plain { 0.0 } else { START };
-        search_mapped((known, part.length), (map, start, part.step.planned.length), |time| {
-            self.read_in_window(quantity, time, window, part, work)
+        let ((map, start), length) = (part.step.smooth_in(), part.step.planned.length);
+        let until = if part.length < length { map.inverse(part.length / length) } else { 1.0 };
+        highest_by_readings((known, until), [start, 1.0], |x| {
+            let (theta, rate) = map.at(x);
+            let Knot { value, slope, .. } = self.read_step(quantity, length * theta, part, work);
+            Knot { x, value, slope: length * rate * slope }
         })
     }
 
@@ -140,19 +107,12 @@ impl PeakFinder<'_> {
         floors.resisted[lane] + pushed.sum::<f64>()
     }
 
-    /// Evaluates a quantity and its slope at a time of a window.
-    fn read_in_window(
-        &self,
-        quantity: &Quantity,
-        time: f64,
-        window: (&Window, &MotionSeries),
-        part: &ContactStep,
-        work: &mut PeakWork,
-    ) -> Knot {
+    /// Evaluates a quantity and its slope at a time of a step.
+    fn read_step(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut PeakWork) -> Knot {
         let ground = quantity.ground.later(time);
         let (place, is_known, mut room) = work.peaks.readings.take(time);
         if !is_known {
-            self.read_motion(ground, window, part, &mut room, work);
+            self.read_motion(ground, part, &mut room, work);
         }
         let ReadingRoom { q, v, acceleration, jerk, .. } = &room;
         let (value, slope) = match quantity.of {
@@ -173,26 +133,20 @@ impl PeakFinder<'_> {
     fn read_motion(
         &self,
         ground: LinearGround,
-        (window, series): (&Window, &MotionSeries),
         part: &ContactStep,
         ReadingRoom { time, q, v, acceleration, jerk }: &mut ReadingRoom,
         work: &mut PeakWork,
     ) {
         let ContactStep { base, step, inputs, .. } = *part;
         let (time, coordinates) = (*time, base.coordinates);
-        let mut pairs = [(0.0, 0.0); MOST_PAIRS];
-        let Window { contacts, equation, solution, .. } = window;
-        let contacts = &contacts[..equation.closed];
+        let mut pairs = std::mem::take(&mut work.peaks.pairs);
         if time == 0.0 {
             MotionMut { q, v }.copy_from(base.motion());
-            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = part.starts[p]);
-        } else if time == step.planned.length {
-            MotionMut { q, v }.copy_from(step.planned.motion());
-            pairs.copy_from_slice(&solution.end);
+            pairs.copy_from_slice(part.starts);
         } else {
-            let free = (series, &mut work.buffers.powers);
-            window.evaluate_with_pairs(self.system, free, time, MotionMut { q, v }, &mut pairs);
+            step.evaluate_with_pairs(self.system, time, &mut work.buffers.powers, MotionMut { q, v }, &mut pairs);
         }
+        let closed = || base.contacts.iter().zip(&pairs).enumerate().filter(|(_, (contact, _))| contact.in_contact());
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
             (acceleration[lane], jerk[lane]) = (-share * ground.acceleration, -share * ground.slope);
         }
@@ -200,64 +154,15 @@ impl PeakFinder<'_> {
         self.system.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
         self.system.add_floor_forces(inputs, coordinates, LinearInput::slope, jerk);
         self.system.resist(coordinates, q, v, 1.0, acceleration);
-        for ((d, rate), &p) in pairs.iter().zip(contacts) {
-            self.system.push_apart_by(p, coordinates, base.contacts[p].branch().value(*d, *rate), acceleration);
+        for (p, (contact, (d, rate))) in closed() {
+            self.system.push_apart_by(p, coordinates, contact.branch().value(*d, *rate), acceleration);
         }
         self.system.resist(coordinates, v, acceleration, 1.0, jerk);
-        for ((d, rate), &p) in pairs.iter().zip(contacts) {
+        for (p, (contact, (d, rate))) in closed() {
             let bend = self.system.pairs[p].relative(coordinates, acceleration);
-            let rates = base.contacts[p].branch().rates([*d, *rate, bend, 0.0]);
+            let rates = contact.branch().rates([*d, *rate, bend, 0.0]);
             self.system.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
         }
-    }
-}
-
-/// A quantity in the double series of an onset step: a sum of three series, divided by 1, x and x^2.
-struct OnsetQuantity {
-    terms: [GridTerms; 3],
-    /// Its value at rest.
-    at_rest: f64,
-}
-
-impl OnsetQuantity {
-    fn of(quantity: &Quantity, onset: &OnsetSeries) -> Option<OnsetQuantity> {
-        let grid = onset.grid()?;
-        let mut terms = [[0.0; MOST_TERMS]; 3];
-        let per_unit = 1.0 / onset.scale;
-        grid.each(|index, exponent| {
-            let term = onset.term(index);
-            match quantity.of {
-                PeakOf::Acceleration(..) => {
-                    terms[2][index] = exponent * (exponent - 1.0) * (quantity.of_motion(term) * per_unit * per_unit);
-                }
-                _ => {
-                    terms[0][index] = quantity.of_motion(term);
-                    terms[1][index] = exponent * quantity.of_rate(term) * per_unit;
-                }
-            }
-        });
-        Some(OnsetQuantity { terms, at_rest: quantity.at_rest })
-    }
-
-    fn read(&self, time: f64, onset: &OnsetSeries, ground: LinearGround) -> Knot {
-        let x = time / onset.scale;
-        let (mut value, mut slope) = (0.0, 0.0);
-        if let Some(grid) = onset.grid() {
-            let mut divisor = 1.0;
-            for (k, terms) in self.terms.iter().enumerate() {
-                if terms.iter().any(|term| *term != 0.0) {
-                    let (sum, rate) = value_and_slope(grid, terms, x);
-                    value += sum / divisor;
-                    slope += (rate - k as f64 * sum / x) / divisor;
-                }
-                divisor *= x;
-            }
-        }
-        slope /= onset.scale;
-        value += self.at_rest;
-        if self.terms[2].iter().any(|term| *term != 0.0) {
-            (value, slope) = (value + ground.acceleration + ground.slope * time, slope + ground.slope);
-        }
-        Knot { x: time, value, slope }
+        work.peaks.pairs = pairs;
     }
 }

@@ -139,6 +139,8 @@ pub struct PeakRoom {
     pub last_forces: Vec<f64>,
     /// Penetrations, m, and rates, m/s, at the start of a step.
     pub starts: Vec<(f64, f64)>,
+    /// The same at a time within a step.
+    pub pairs: Vec<(f64, f64)>,
 }
 
 impl PeakRoom {
@@ -170,6 +172,7 @@ impl PeakRoom {
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
+            pairs: vec![(0.0, 0.0); pairs],
         }
     }
 

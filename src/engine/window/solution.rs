@@ -175,7 +175,7 @@ impl Window {
         self.evaluate_with_pairs(system, free, elapsed, motion, &mut []);
     }
 
-    /// The same motion, and the (penetration, m, rate, m/s) of the closed pairs, as many as `pairs` has room for.
+    /// The same motion, and the (penetration, m, rate, m/s) of each closed pair, by its number, where `pairs` has room for all.
     pub fn evaluate_with_pairs(
         &self,
         system: &System,
@@ -194,8 +194,14 @@ impl Window {
         for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
             response.push(&system.pairs[*p].row.modes, &moments[..self.equation.powers], MotionMut { q, v });
         }
-        for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
-            *pair = self.depth(place, elapsed, moments);
+        for (place, &p) in self.contacts.iter().enumerate().take(self.equation.closed) {
+            if let Some(pair) = pairs.get_mut(p) {
+                *pair = if elapsed == self.solution.length {
+                    self.solution.end[place]
+                } else {
+                    self.depth(place, elapsed, moments)
+                };
+            }
         }
     }
 }
