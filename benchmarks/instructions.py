@@ -62,10 +62,10 @@ def released():
     return built(WORK / "release", WORK / "released.so")
 
 
-def built(target, place, **settings):
-    """A library, compiled below a target folder with these settings of cargo."""
+def built(target, place, *switches, **settings):
+    """A library, compiled below a target folder with these switches of the compiler and settings of cargo."""
     command = "cargo rustc --release --lib --crate-type cdylib --package pounding-fmu --target-dir"
-    run(*command.split(), target, "--", "--cfg", "fmi_exports", **settings)
+    run(*command.split(), target, "--", "--cfg", "fmi_exports", *switches, **settings)
     place.parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(target / "release/libpounding.so", place)
     return place
