@@ -54,10 +54,7 @@ PATHS = {
     "flight_work": "work over a flight as a quadratic form (`structure/flight_work.rs`)",
     "flight_log": "peaks of flights read many at once (`peaks/fold.rs`, `bounds/span.rs`)",
     "truncation": "peaks of many modes by the slow ones first (`quantities/truncated.rs`)",
-    "ahead": "flights bounded ahead where peaks are read often (`peaks/ahead.rs`)",
-    "begun": "what has been searched of a long flight (`peaks/begun.rs`)",
     "settled": "modes whose swing is below rounding (`peaks/settled.rs`)",
-    "step_log": "windows that wait for their search (`peaks/step_log.rs`)",
 }
 
 # Paths that cover for each other.
@@ -70,9 +67,7 @@ TOGETHER = [
     ("fast_flight", "dismissal"),
     ("certificate", "envelopes"),
     ("certificate", "envelopes", "short_flight"),
-    ("ahead", "begun"),
-    ("ahead", "begun", "settled", "step_log"),
-    ("truncation", "step_log"),
+    ("truncation", "settled"),
 ]
 
 

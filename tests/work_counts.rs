@@ -279,22 +279,6 @@ fn the_work_of_quick_modes_takes_no_pieces() {
     }
 }
 
-/// One flight of 5 s of modes that damping couples: each read of a peak goes on where the last one was.
-#[test]
-fn a_long_flight_is_searched_once() {
-    let mut scene = scene(include_str!("problems/peaks/long_coupled_flight.toml"));
-    scene.ground.record = Some("r.csv".into());
-    let still = Record::new(vec![0.0, 5.0], vec![0.0, 0.0]);
-    let mut run = Run::new(&scene, Some(&still));
-    for k in 1..=400 {
-        run.to(0.01 * f64::from(k));
-        run.peak(PeakOf::Drift(Side::Right, 1));
-    }
-    // Measured: 13,196, of which 762 would do for a single read at the end.
-    let motions = run.point.motions_searched();
-    assert!(motions < 20_000, "{motions}");
-}
-
 #[test]
 fn a_contact_shows_the_same_whatever_has_been_read_before() {
     let contacts: String = [1, 2].map(|floor| contact(0.01).replace("floor = 2", &format!("floor = {floor}"))).concat();

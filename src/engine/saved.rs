@@ -70,8 +70,6 @@ impl Model {
         self.system.settle(&mut state.base, state.work.for_energy());
         let (log, mut work) = state.work.for_log();
         self.peaks().fold_log(&mut state.base, (log, &mut work));
-        let (steps, mut work) = state.work.for_steps();
-        self.peaks().search_all(&mut state.base, &state.inputs, (steps, &mut work));
         let State { time, stop, base, step, inputs, counters, work: _ } = state;
         let is_planned = step.kind != StepKind::NotPlanned;
         SavedState {
@@ -108,7 +106,6 @@ impl Model {
         state.inputs.clone_from(inputs);
         state.work.peaks.forget();
         state.work.log.clear();
-        state.work.steps.clear();
         state.work.waiting.clear();
         state.step.kind = StepKind::NotPlanned;
         if *is_planned {

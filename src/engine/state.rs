@@ -11,7 +11,6 @@ use crate::engine::flight::log::FlightLog;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
-use crate::engine::peaks::step_log::StepLog;
 use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
@@ -150,8 +149,6 @@ pub(super) struct Workspace {
     pub peaks: PeakRoom,
     /// The flights over which the peaks of the base have not been raised yet.
     pub log: FlightLog,
-    /// The windows over which they have not been raised yet.
-    pub steps: StepLog,
     /// The flights whose work the energy account of the base does not have yet.
     pub waiting: FlightLog,
     /// The instants at which storeys have begun to yield or turned, s, where somebody asks for them.
@@ -169,11 +166,6 @@ impl Workspace {
     /// The part of it that the peaks use.
     pub(super) fn for_peaks(&mut self) -> PeakWork<'_> {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
-    }
-
-    /// The log of steps in contact, and the part of it that the peaks use.
-    pub(in crate::engine) fn for_steps(&mut self) -> (&mut StepLog, PeakWork<'_>) {
-        (&mut self.steps, PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks })
     }
 
     /// The log of flights, and the part of it that the peaks use.
@@ -196,7 +188,6 @@ impl Workspace {
             windows: WindowWorkspace::new(if model.windows.is_ok() { pairs } else { 0 }),
             peaks: model.peaks().peak_room(log.capacity()),
             log,
-            steps: StepLog::default(),
             waiting: model.waiting(),
             switches: None,
         }
@@ -235,11 +226,6 @@ impl Model {
             false => self.peaks().raise_to_motion(&state.base, &mut peaks),
         }
         state.base.peaks = peaks;
-        // Steps that wait are searched without the forces of a master.
-        let waits = self.windows.is_ok() && !self.watched.rows.are_none() && !self.system.floor_forces;
-        if waits && !cfg!(without = "step_log") {
-            state.work.steps = StepLog::new(&self.system, &state.base);
-        }
         state
     }
 }

@@ -81,25 +81,6 @@ impl Step {
         }
     }
 
-    /// The same with memory for windows alone.
-    pub(super) fn for_windows(system: &System) -> Step {
-        let lanes = system.structure.lanes;
-        Step {
-            kind: StepKind::NotPlanned,
-            planned: Planned::new(lanes, 0),
-            taylor: Solution::of_motion(lanes),
-            onset: OnsetSeries::default(),
-            window: Box::default(),
-        }
-    }
-
-    /// Gets another step's window, and leaves it the memory of its own.
-    pub(super) fn take_window(&mut self, other: &mut Step) {
-        self.kind = other.kind;
-        std::mem::swap(&mut self.window, &mut other.window);
-        std::mem::swap(&mut self.taylor.series, &mut other.taylor.series);
-    }
-
     /// Whether the planned step is a flight.
     pub(super) fn is_flight(&self) -> bool {
         matches!(self.kind, StepKind::Flight | StepKind::Deferred)

@@ -41,7 +41,6 @@ fn of_two_runs_in_turn() {
     let (scene, shaking) = (scene(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), "")), shaking());
     let mut run = Run::new(&scene, Some(&shaking));
     for k in (100..200).step_by(3) {
-        // The second read looks ahead.
         drop(bits(run.to(0.01 * f64::from(k))));
         let time = 0.01 * f64::from(k + 1);
         drop(bits(run.to(time)));

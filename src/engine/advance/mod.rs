@@ -235,8 +235,7 @@ impl Model {
         // Rates are those of the floors from now on, of which the step has other last digits, and impulses elsewhere
         // change them at once: the forces that are read from here on count.
         base.raise_peak_forces();
-        // The base has moved: the step that was planned from the old one means nothing, but to peaks that wait for it.
-        work.steps.keep(step);
+        // The base has moved: the step that was planned from the old one means nothing.
         step.kind = StepKind::NotPlanned;
     }
 
@@ -335,7 +334,7 @@ impl Model {
         }
         step.follow(&self.system, &mut base.contacts, start);
         if is_watched && !is_flight {
-            peaks.raise_over_step(base, step, inputs, end, work.for_steps());
+            peaks.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::numerics::sum::Sum;
-use crate::structure::{FlightEnergy, LinearGround, Motion, MotionMut};
+use crate::structure::{FlightEnergy, LinearGround, Motion};
 use serde::{Deserialize, Serialize};
 
 /// The least motion that counts, m and m/s, or the same of modes: smaller ones would leave forces, which grow with powers of it,
@@ -121,18 +121,6 @@ impl Base {
     pub(super) fn motion(&self) -> Motion<'_> {
         Motion { q: &self.q, v: &self.v }
     }
-
-    /// Copies what the motion in a step and its forces follow from.
-    pub(super) fn copy_start(&mut self, of: &Base) {
-        MotionMut { q: &mut self.q, v: &mut self.v }.copy_from(of.motion());
-        (self.segment, self.elapsed, self.coordinates) = (of.segment, of.elapsed, of.coordinates);
-        self.contacts.copy_from_slice(&of.contacts);
-        self.storeys.copy_from_slice(&of.storeys);
-        self.rest.floors.copy_from_slice(&of.rest.floors);
-        self.rest.gaps.copy_from_slice(&of.rest.gaps);
-        self.rest.watched.copy_from_slice(&of.rest.watched);
-    }
-
     /// Energy dissipated by all contacts so far, J.
     pub(super) fn dissipated_by_contacts(&self) -> f64 {
         self.contacts.iter().map(Contact::dissipated_energy).sum()

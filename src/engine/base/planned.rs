@@ -85,12 +85,6 @@ impl Planned {
         MotionMut { q: &mut self.q, v: &mut self.v }
     }
 
-    /// Copies the motion at the end of another step, and its length.
-    pub(crate) fn copy_end(&mut self, of: &Planned) {
-        self.length = of.length;
-        self.motion_mut().copy_from(of.motion());
-    }
-
     /// Plans a step of length 0: the event is at the base.
     pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.plan(0.0, Some(event), false, None);

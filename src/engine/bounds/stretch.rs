@@ -24,8 +24,6 @@ pub struct Stretch<'a> {
     pub length: f64,
     /// Whether a peak may well be exceeded in it, as other bounds have shown, so that those by amplitudes are left out.
     pub is_suspect: bool,
-    /// How much of it has been searched for peaks before, s.
-    pub searched: f64,
     /// The whole flight, of which this is the first part; `None` if it is whole itself.
     pub whole: Option<&'a Stretch<'a>>,
 }

@@ -1,8 +1,6 @@
 //! Storage of the quantities of a point that are worked out when first read.
 
 use crate::engine::base::peaks::Peaks;
-use crate::engine::peaks::ahead::FlightsAhead;
-use crate::engine::peaks::begun::BegunFlight;
 use crate::engine::peaks::room::PeakRoom;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
@@ -96,16 +94,10 @@ impl FloorMotions {
 pub(crate) struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
-    /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity, and
-    /// over the first so many steps in contact.
+    /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity.
     pub folded: Peaks,
     pub identity: u64,
     pub entries: usize,
-    pub steps: u64,
-    /// The flights that are expected next, where peaks are read often.
-    pub ahead: FlightsAhead,
-    /// The flight that has begun.
-    pub begun: BegunFlight,
     /// The displacements relative to the position of rest at the start of the step.
     pub q: Vec<f64>,
     pub work: Option<Box<(Buffers, PeakRoom)>>,

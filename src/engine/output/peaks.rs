@@ -7,16 +7,11 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
-use crate::engine::peaks::ahead::FlightsAhead;
-use crate::engine::peaks::begun::BegunFlight;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::structure::{Motion, MotionMut};
-
-/// Number of flights from one read to the next up to which it is worth looking ahead.
-const OFTEN: usize = 4;
 
 impl Point {
     /// Number of motions within flights that have been worked out for peaks.
@@ -53,7 +48,7 @@ impl Model {
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
         self.fold_into_point(state, known, work);
-        let PointPeaks { peaks, q, folded, ahead, begun, .. } = known;
+        let PointPeaks { peaks, q, folded, .. } = known;
         peaks.clone_from(folded);
         let elapsed = state.since_base();
         match () {
@@ -67,7 +62,7 @@ impl Model {
                 }
                 self.peaks().raise_over_part((base, step, inputs), (elapsed, Motion { q, v: &point.v }), peaks, work);
             }
-            _ => self.read_peaks_of_flight(state, (point, elapsed), (ahead, begun), peaks, work),
+            _ => self.read_peaks_of_flight(state, (point, elapsed), peaks, work),
         }
         known.work = Some(room);
     }
@@ -77,25 +72,13 @@ impl Model {
         let (State { base, .. }, log) = (state, &state.work.log);
         if known.identity != log.identity {
             known.folded.clone_from(&base.peaks);
-            (known.identity, known.entries, known.steps) = (log.identity, 0, 0);
+            (known.identity, known.entries) = (log.identity, 0);
         }
-        // Steps in contact that do not wait have raised the peaks of the base.
+        // Steps in contact have raised the peaks of the base.
         known.folded.raise_all(&base.peaks);
-        let steps = &state.work.steps;
-        self.peaks().raise_over_log((steps, known.steps), &state.inputs, &mut known.folded, work);
-        known.steps = steps.logged();
         let flights = log.flights_from(known.entries, base.motion());
-        let (rest, count) = (&base.rest.watched, flights.loads.len());
-        let PointPeaks { folded, peaks, ahead, .. } = known;
-        if !self.peaks().fold_expected((&flights, rest), ahead, folded, work) {
-            self.peaks().fold(&flights, rest, None, folded, work);
-            ahead.forget();
-        }
+        self.peaks().fold(&flights, &base.rest.watched, None, &mut known.folded, work);
         known.entries = log.count();
-        if !cfg!(without = "ahead") && ahead.are_none() && log.is_open() && count <= OFTEN {
-            peaks.clone_from(folded);
-            self.peaks().look_at_flights_ahead(base, ahead, peaks, work);
-        }
     }
 
     /// Raises peaks over the first part of the planned flight, which ends at the observed time.
@@ -103,31 +86,20 @@ impl Model {
         &self,
         state: &State,
         (point, elapsed): (&Point, f64),
-        (ahead, begun): (&FlightsAhead, &mut BegunFlight),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
         let State { base, inputs, .. } = state;
         let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
-        let load_over = |length: f64| [Load { ground: base.ground(), length }];
-        let loads = load_over(elapsed);
+        let loads = [Load { ground: base.ground(), length: elapsed }];
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
-        if ahead.stay_below(&part, &base.rest.watched, peaks) {
-            return;
-        }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, MotionMut { q: &mut q, v: &mut v });
         let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
         let finder = self.peaks();
-        let raise = |whole: &Stretch, length: f64, end: Motion, peaks: &mut Peaks, work: &mut PeakWork| {
-            let loads = &load_over(length);
-            match is_folded {
-                true => finder.fold(&Flights { loads, end, ..part }, whole.rest, Some(whole), peaks, work),
-                false => finder.check_blocks(&Stretch { end, length, whole: Some(whole), ..*whole }, peaks, work),
-            }
-        };
-        finder.with_flight(base, inputs, (length, Motion { q: &q, v: &v }), work, |whole, work| {
-            finder.raise_over_begun((base, begun), (whole, elapsed, end), (peaks, work), raise);
+        finder.with_flight(base, inputs, (length, Motion { q: &q, v: &v }), work, |whole, work| match is_folded {
+            true => finder.fold(&part, whole.rest, Some(whole), peaks, work),
+            false => finder.check_blocks(&Stretch { end, length: elapsed, whole: Some(whole), ..*whole }, peaks, work),
         });
         (work.buffers.q, work.buffers.v) = (q, v);
     }

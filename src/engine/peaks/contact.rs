@@ -1,5 +1,5 @@
 //! Peaks over a step in contact: only what both ends, the length and the largest contact forces cannot rule out is
-//! searched, and mostly later ([`super::step_log`]).
+//! searched.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -10,7 +10,6 @@ use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, OpenQuantity, PeakRoom, PeakWork};
-use crate::engine::peaks::step_log::StepLog;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
@@ -36,17 +35,16 @@ impl PeakFinder<'_> {
         }
     }
 
-    /// Raises the peaks of the base over the planned step, after the contacts have been moved to its end; if they may be
-    /// exceeded within it, the step is logged, to be searched later.
+    /// Raises the peaks of the base over the planned step, after the contacts have been moved to its end.
     pub(in crate::engine) fn raise_over_step(
         &self,
         base: &mut Base,
         step: &Step,
         inputs: &Inputs,
         end: f64,
-        (log, mut work): (&mut StepLog, PeakWork),
+        work: &mut PeakWork,
     ) {
-        let (mut peaks, work) = (std::mem::take(&mut base.peaks), &mut work);
+        let mut peaks = std::mem::take(&mut base.peaks);
         for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
             *force = contact.present_force();
         }
@@ -59,11 +57,7 @@ impl PeakFinder<'_> {
         let starts = std::mem::take(&mut work.peaks.starts);
         let part = ContactStep::whole((base, step, inputs), &starts);
         self.find_open(&part, &mut peaks, work);
-        match work.peaks.open.is_empty() {
-            true => {}
-            false if log.takes(step) => self.log_step(&part, &mut peaks, (log, work)),
-            false => self.search_noted(&part, &mut peaks, work),
-        }
+        self.search_noted(&part, &mut peaks, work);
         work.peaks.starts = starts;
         // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, floor forces
         // and another position of rest may.
@@ -249,25 +243,14 @@ impl PeakFinder<'_> {
     /// Raises the peaks that have been noted over a part of a step.
     fn search_noted(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         let open = std::mem::take(&mut work.peaks.open);
-        self.search_open(&open, part, peaks, work);
-        work.peaks.open = open;
-    }
-
-    /// Raises the peaks of open quantities over a part of a step.
-    pub(super) fn search_open(
-        &self,
-        open: &[OpenQuantity],
-        part: &ContactStep,
-        peaks: &mut Peaks,
-        work: &mut PeakWork,
-    ) {
         work.peaks.readings.restart();
-        for quantity in open {
+        for quantity in &open {
             if quantity.may_exceed(peaks) {
                 let known = peaks.values[quantity.place];
                 peaks.raise(quantity.place, self.highest_in_contact(quantity, known, part, work));
             }
         }
+        work.peaks.open = open;
     }
 
     /// The largest magnitude of a quantity within a part of a step if it exceeds its `known` peak, or a number up to that peak.
@@ -275,7 +258,7 @@ impl PeakFinder<'_> {
     #[inline(never)]
     fn highest_in_contact(
         &self,
-        &OpenQuantity { of, place, ends: [at_start, at_end], .. }: &OpenQuantity,
+        &OpenQuantity { of, place, ends: [_, at_end], .. }: &OpenQuantity,
         known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
@@ -289,10 +272,7 @@ impl PeakFinder<'_> {
             Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
-            // Whatever else is known: what is found does not depend on when the step is searched.
-            Dense::Onset(_) | Dense::Window(..) => {
-                self.highest_by_readings(&quantity, larger(at_start.abs(), at_end.abs()), part, work)
-            }
+            Dense::Onset(_) | Dense::Window(..) => self.highest_by_readings(&quantity, known, part, work),
             Dense::Taylor(Solution { series, substitution, end, .. }) => {
                 let (terms, order) = quantity.terms(series, Some(substitution));
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };

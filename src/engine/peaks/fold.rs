@@ -29,8 +29,6 @@ struct Fold<'a> {
     truncated: &'a TruncatedBody,
     /// The quantities at rest.
     rest: &'a [Lane],
-    /// Whether the lower bounds on the peaks that are found on the way raise them.
-    rise: bool,
 }
 
 impl PeakFinder<'_> {
@@ -45,20 +43,13 @@ impl PeakFinder<'_> {
         work: &mut PeakWork,
     ) {
         let mut room = std::mem::take(&mut work.peaks.fold);
-        self.find_survivors(flights, (rest, true), peaks, &mut room);
+        self.find_survivors(flights, rest, peaks, &mut room);
         self.read_survivors((flights, rest, whole), &mut room.survivors, peaks, work);
         work.peaks.fold = room;
     }
 
-    /// Notes the blocks and flights that may exceed the peaks. Where these `rise`, they are raised to lower bounds over the
-    /// flights on the way.
-    pub(super) fn find_survivors(
-        &self,
-        flights: &Flights,
-        (rest, rise): (&[f64], bool),
-        peaks: &mut Peaks,
-        room: &mut FoldRoom,
-    ) {
+    /// Notes the blocks and flights that may exceed the peaks, which are raised to lower bounds over the flights on the way.
+    fn find_survivors(&self, flights: &Flights, rest: &[f64], peaks: &mut Peaks, room: &mut FoldRoom) {
         room.survivors.clear();
         let is_short = flights.count() < SHORT;
         let fours = &self.watched.truncated.fours[..];
@@ -68,8 +59,7 @@ impl PeakFinder<'_> {
         }
         for (rows, truncated) in self.watched.in_flight().bodies.iter().zip(&self.watched.truncated.bodies) {
             let of_body = rows.first..rows.first + rows.blocks.len();
-            let fold =
-                Fold { flights, fours, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
+            let fold = Fold { flights, fours, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()] };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
             match is_short {
                 true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
@@ -79,7 +69,7 @@ impl PeakFinder<'_> {
     }
 
     /// Raises peaks over the blocks and flights that may exceed them.
-    pub(super) fn read_survivors(
+    fn read_survivors(
         &self,
         (flights, rest, whole): (&Flights, &[f64], Option<&Stretch>),
         survivors: &mut Vec<Survivor>,
@@ -176,7 +166,7 @@ impl PeakFinder<'_> {
         }
         let (start, end) = (flights.motion(flight), flights.motion(flight + 1));
         self.search_stretch(
-            &Stretch { start, end, loads, rest, ground, length, is_suspect: true, searched: 0.0, whole },
+            &Stretch { start, end, loads, rest, ground, length, is_suspect: true, whole },
             survivors,
             peaks,
             work,
@@ -267,9 +257,7 @@ impl Fold<'_> {
             }
             let mut open = OpenBlock { span: span.0, block: b, coarse, upper: coarse };
             let [least, upper] = self.bound(span.1, &open, room).extremes(span.1.count);
-            if self.rise {
-                known[b] = each(|i| larger(known[b][i], least[i]));
-            }
+            known[b] = each(|i| larger(known[b][i], least[i]));
             if !is_below(&upper, &known[b]) {
                 open.upper = upper;
                 room.open.push(open);
@@ -321,6 +309,6 @@ impl Fold<'_> {
 }
 
 /// Whether bounds leave all peaks of a block as they are; a NaN leaves none.
-pub(super) fn is_below(upper: &Lane, peaks: &Lane) -> bool {
+fn is_below(upper: &Lane, peaks: &Lane) -> bool {
     (0..LANES).all(|i| upper[i] <= peaks[i])
 }

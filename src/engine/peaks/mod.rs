@@ -6,15 +6,11 @@
 //! are needed: flights are logged (`flight/log.rs`) and read many at once, by their slow modes ([`fold`]). In contact the largest
 //! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
-//! series in time ([`reading`]); steps in contact wait for that in a log of their own ([`step_log`]).
+//! series in time ([`reading`]).
 //!
 //! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and these and the
-//! part of the planned step so far are added when a peak is read. Where peaks are read often, the next flights are bounded ahead
-//! of time ([`ahead`]), and what has been searched of a long flight is kept ([`begun`]). Velocities jump in an impact of
-//! `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
+//! part of the planned step so far are added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
-pub mod ahead;
-pub mod begun;
 pub mod contact;
 mod contact_bounds;
 pub mod flight;
@@ -28,7 +24,6 @@ pub mod rest;
 pub mod room;
 pub mod search;
 mod settled;
-pub mod step_log;
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
@@ -145,7 +140,7 @@ impl PeakFinder<'_> {
         let (ground, loads) = (base.ground(), LinearLoad { load: &load, slope: &slope });
         let (start, is_suspect) = (base.motion(), false);
         let rest = &base.rest.watched;
-        then(&Stretch { start, end, loads, rest, ground, length, is_suspect, searched: 0.0, whole: None }, work);
+        then(&Stretch { start, end, loads, rest, ground, length, is_suspect, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }

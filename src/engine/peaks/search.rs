@@ -98,7 +98,7 @@ impl PeakFinder<'_> {
     /// quantities that the amplitudes at its start do not keep below their peaks.
     fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let halvings = piece.halvings;
-        if piece.from >= until || piece.to <= flight.searched {
+        if piece.from >= until {
             return;
         }
         // Those that are cleared here are open again in the next piece.
@@ -128,7 +128,7 @@ impl PeakFinder<'_> {
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at ends of leaves first: then few
     /// leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        if piece.from >= until || piece.to <= flight.searched {
+        if piece.from >= until {
             return;
         }
         if piece.angle() > LEAVES as f64 * LEAF_ANGLE && piece.halvings > 0 {
@@ -332,25 +332,6 @@ impl PeakFinder<'_> {
         if leaf.is_settled {
             self.expand_settled(modes.0..modes.1, flight.loads.slope, work);
         }
-    }
-
-    /// The end of the last piece that lies in the first `until` seconds of a flight, s, of those that are searched together.
-    pub(super) fn end_of_pieces(&self, flight: &Stretch, until: f64) -> f64 {
-        let fastest = self.system.structure.in_flight().fastest;
-        let mut piece = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS, fastest, is_settled: false };
-        while piece.angle() > LONG && piece.halvings > 0 {
-            let [first, second] = piece.halves();
-            piece = if second.from <= until { second } else { first };
-        }
-        piece.from
-    }
-
-    /// Writes the motion at such a time of a flight that is about to be searched.
-    pub(super) fn fly_within(&self, flight: &Stretch, time: f64, [q, v]: &mut [Vec<f64>; 2], work: &mut PeakWork) {
-        work.peaks.start_flight();
-        self.fly_to(flight, time, [0, 1], work);
-        q.clone_from(&work.peaks.pieces[0]);
-        v.clone_from(&work.peaks.pieces[1]);
     }
 
     /// Works out the motion at a time of a flight in two of the vectors `pieces`.

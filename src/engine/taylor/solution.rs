@@ -41,18 +41,7 @@ impl Solution {
             drifts: YieldingDrifts::new(system.storeys.len()),
             open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
-            ..Solution::of_motion(system.structure.lanes)
-        }
-    }
-
-    /// Allocates for the motion alone.
-    pub fn of_motion(lanes: usize) -> Solution {
-        Solution {
-            series: MotionSeries::new(lanes, MAX_ORDER + 2),
-            closed: ClosedPairs::new(&[], false),
-            drifts: YieldingDrifts::new(0),
-            open: OpenPairs::new(0, false),
-            reactions: Vec::new(),
+            series: MotionSeries::new(system.structure.lanes, MAX_ORDER + 2),
             reaction_order: 0,
             end: Powers::default(),
             substitution: Box::default(),

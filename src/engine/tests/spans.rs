@@ -296,7 +296,6 @@ fn no_quantity_leaves_its_envelope() {
                 ground,
                 length,
                 is_suspect: false,
-                searched: 0.0,
                 whole: None,
             };
             let mut bounds = ModeBounds::new(structure.lanes);
