@@ -256,9 +256,9 @@ fn modes_that_have_settled_make_no_search_finer() {
             run.to(0.001 * f64::from(k));
             run.peak(PeakOf::Drift(Side::Left, 1));
         }
-        // Measured: 1700 to 4300.
+        // Measured: 2300 to 10500, up to 21 a read; a search as fine as the quick mode asks for would take 700,000.
         let motions = run.point.motions_searched();
-        assert!(motions < 6000, "{stiffness:e} N/m, {damping}: {motions}");
+        assert!(motions < 12_000, "{stiffness:e} N/m, {damping}: {motions}");
     }
 }
 
