@@ -60,12 +60,9 @@ PATHS = {
 # Paths that cover for each other.
 TOGETHER = [
     ("onset", "time_map"),
-    ("windows", "onset"),
-    ("windows", "time_map"),
     ("windows", "onset", "time_map"),
     ("few_modes", "at_once"),
     ("fast_flight", "dismissal"),
-    ("certificate", "envelopes"),
     ("certificate", "envelopes", "short_flight"),
     ("truncation", "settled"),
 ]
