@@ -2,6 +2,7 @@
 
 "$(ci/environment benchmarks)" benchmarks/special_paths.py                   # two hours; renews docs/benchmark/special_paths.md
 "$(ci/environment benchmarks)" benchmarks/special_paths.py --path windows onset+time_map   # some paths, alone or together
+"$(ci/environment benchmarks)" benchmarks/special_paths.py --page            # the page anew from what has been measured, as it is
 "$(ci/environment benchmarks)" benchmarks/special_paths.py --quick           # one path, two scenes: shows that it works
 
 Each path has one line in the engine, `cfg!(without = "...")`, that switches it off. The library of an FMU is compiled once for
@@ -81,6 +82,7 @@ class Use:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--page", action="store_true", help="compile and count nothing")
     parser.add_argument("--path", nargs="+", metavar="PATH[+PATH]", help="those to switch off")
     options = parser.parse_args()
     if not shutil.which("valgrind"):
@@ -92,6 +94,9 @@ def main():
         parser.error(f"unknown: {', '.join(sorted(unknown))}")
     switches, uses = ([("fast_flight",)], users()[:2]) if options.quick else (switches, users())
     WORK.mkdir(parents=True, exist_ok=True)
+    if options.page:
+        found = {paths: kept(paths) for paths in switches if known_file(paths).exists()}
+        return PAGE.write_text(report(kept(()), found, uses))
     record.write(WORK / "record.csv", 0.01)
     runs = [Run(use) for use in uses]
     progress = Progress(len(switches) + 1)
@@ -102,7 +107,7 @@ def main():
         found = {paths: measure(paths, library.result(), runs, progress) for paths, library in zip(switches, libraries)}
     progress.clear()
     page = PAGE if not (options.quick or options.path) else WORK / "page.md"
-    page.write_text(report(with_all, found, runs))
+    page.write_text(report(with_all, found, uses))
     print(f"results: {page.relative_to(ROOT)}")
 
 
@@ -155,11 +160,10 @@ def build(paths):
 
 def measure(paths, library, runs, progress):
     """Instructions and a hash of the results of all runs, by their names."""
-    name = "+".join(paths) or "all"
-    progress.begin(name)
-    kept = WORK / f"{name}.json"
+    progress.begin("+".join(paths) or "all")
+    file = known_file(paths)
     code = hashlib.sha256(library.read_bytes()).hexdigest()
-    known = json.loads(kept.read_text()) if kept.exists() else {}
+    known = json.loads(file.read_text()) if file.exists() else {}
     found = known["runs"] if known.get("library") == code else {}
     driver = instructions.compiled_driver()
     for run in runs:
@@ -167,14 +171,23 @@ def measure(paths, library, runs, progress):
         if found.get(run.use.name, {}).get("scene") != run.digest:
             count, bits = run.count(driver, library)
             found[run.use.name] = {"scene": run.digest, "instructions": count, "bits": bits}
-            kept.write_text(json.dumps({"library": code, "runs": found}))
+            file.write_text(json.dumps({"library": code, "runs": found}))
     progress.end()
     return found
 
 
-def report(with_all, found, runs):
+def known_file(paths):
+    return WORK / f"{'+'.join(paths) or 'all'}.json"
+
+
+def kept(paths):
+    """What has been measured before."""
+    return json.loads(known_file(paths).read_text())["runs"]
+
+
+def report(with_all, found, uses):
     """The page."""
-    groups = list(dict.fromkeys(run.use.group for run in runs))
+    groups = list(dict.fromkeys(use.group for use in uses))
     lines = [
         "<!-- Written by benchmarks/special_paths.py. -->",
         "# What the special paths bring",
@@ -187,14 +200,14 @@ def report(with_all, found, runs):
         "|---|" + "---|" * (len(groups) + 3),
     ]
     for paths, measured in found.items():
-        ratio = {run.use.name: measured[run.use.name]["instructions"] / with_all[run.use.name]["instructions"] for run in runs}
-        mean = lambda of: math.exp(sum(math.log(ratio[run.use.name]) for run in of) / len(of))
-        cells = [cell(mean(runs), MEAN), *(cell(mean([run for run in runs if run.use.group == group]), GROUP) for group in groups)]
+        ratio = {use.name: measured[use.name]["instructions"] / with_all[use.name]["instructions"] for use in uses}
+        mean = lambda of: math.exp(sum(math.log(ratio[use.name]) for use in of) / len(of))
+        cells = [cell(mean(uses), MEAN), *(cell(mean([use for use in uses if use.group == group]), GROUP) for group in groups)]
         most = max(ratio, key=ratio.get)
         changed = sum(measured[name]["bits"] != with_all[name]["bits"] for name in ratio)
         what = f"`{paths[0]}`: {PATHS[paths[0]]}" if len(paths) == 1 else ", ".join(f"`{path}`" for path in paths)
-        lines.append("| " + " | ".join([what, *cells, f"{most} {ratio[most]:.2f}", f"{changed} of {len(runs)}"]) + " |")
-    total = {group: sum(with_all[run.use.name]["instructions"] for run in runs if run.use.group == group) / 1e6 for group in groups}
+        lines.append("| " + " | ".join([what, *cells, f"{most} {ratio[most]:.2f}", f"{changed} of {len(uses)}"]) + " |")
+    total = {group: sum(with_all[use.name]["instructions"] for use in uses if use.group == group) / 1e6 for group in groups}
     lines += [
         "",
         "The scenes, all with peaks as the default has them: the eight examples; S1 to S4 ([README.md](README.md)) under",
