@@ -186,7 +186,7 @@ impl System {
                 series.set_powers(length, &mut work.powers);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
-            Dense::Onset(_) | Dense::Window(..) => {
+            _ => {
                 let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
                     step.evaluate_with_pairs(self, t, powers, MotionMut { q, v }, &mut []);
                 };

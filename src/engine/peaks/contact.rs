@@ -272,7 +272,6 @@ impl PeakFinder<'_> {
             Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
-            Dense::Onset(_) | Dense::Window(..) => self.highest_by_readings(&quantity, known, part, work),
             Dense::Taylor(Solution { series, substitution, end, .. }) => {
                 let (terms, order) = quantity.terms(series, Some(substitution));
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
@@ -286,6 +285,7 @@ impl PeakFinder<'_> {
                     _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
                 }
             }
+            _ => self.highest_by_readings(&quantity, known, part, work),
         };
         work.peaks.rows = rows;
         peak
