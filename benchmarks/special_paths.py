@@ -218,6 +218,9 @@ def report(with_all, found, uses):
         "Millions of instructions with all paths: " + ", ".join(f"{group} {count:.0f}" for group, count in total.items()) + ".",
         "",
     ]
+    counted = {path for paths in found for path in paths}
+    if missing := [f"`{path}`: {what}" for path, what in PATHS.items() if path not in counted]:
+        lines += ["Not counted here: " + "; ".join(missing) + ".", ""]
     return "\n".join(lines)
 
 
