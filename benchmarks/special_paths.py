@@ -95,8 +95,10 @@ def main():
     switches, uses = ([("fast_flight",)], users()[:2]) if options.quick else (switches, users())
     WORK.mkdir(parents=True, exist_ok=True)
     if options.page:
-        found = {paths: kept(paths) for paths in switches if known_file(paths).exists()}
-        return PAGE.write_text(report(kept(()), found, uses))
+        measured = {paths: kept(paths) for paths in switches if known_file(paths).exists()}
+        found = {paths: runs for paths, runs in measured.items() if len(runs) == len(uses)}
+        PAGE.write_text(report(kept(()), found, uses))
+        return
     record.write(WORK / "record.csv", 0.01)
     runs = [Run(use) for use in uses]
     progress = Progress(len(switches) + 1)
