@@ -19,7 +19,7 @@ impl Model {
         // A sum is finite only if all of its terms are.
         let contacts: f64 =
             base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
-        let yielded: f64 = base.storeys.iter().map(|storey| storey.cumulative.value).sum();
+        let yielded: f64 = base.elements.iter().map(|element| element.cumulative.value).sum();
         let account = base.energy.map_or(0.0, |account| account.largest);
         if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + yielded + account).is_finite() {
             return Ok(());

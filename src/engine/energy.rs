@@ -2,8 +2,8 @@
 //!
 //! Every term is integrated by itself and none is computed as a remainder, so that their sum tests the solution.
 
+use crate::engine::base::element::ElementState;
 use crate::engine::base::planned::At;
-use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::bounds::flights::Load;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
@@ -60,14 +60,19 @@ impl Model {
 
 impl System {
     /// Kinetic, recoverable strain and gravity energy, J, of a motion relative to the position of rest of some storeys.
-    pub(super) fn energies(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64], v: &[f64]) -> [f64; 3] {
+    pub(super) fn energies(
+        &self,
+        (coordinates, elements): (Coordinates, &[ElementState]),
+        q: &[f64],
+        v: &[f64],
+    ) -> [f64; 3] {
         let (kinetic, strain) = match coordinates {
             Coordinates::Modes => self.structure.energies(q, v),
             Coordinates::Floors => self.structure.floors.energies(q, v),
         };
-        let gravity = self.gravity_energy((coordinates, storeys), q);
+        let gravity = self.gravity_energy((coordinates, elements), q);
         // That of the net storeys is the sum of both, and strain a sum of squares, but for its rounding.
-        let strain = strain + self.locked_energy(storeys) - gravity;
+        let strain = strain + self.locked_energy(elements) - gravity;
         [kinetic, if strain < 0.0 { 0.0 } else { strain }, gravity]
     }
 
@@ -88,7 +93,7 @@ impl System {
 
     /// Opens the account with the energy at the start.
     pub(super) fn open_account(&self, base: &mut Base) {
-        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
+        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.elements), &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.initial = kinetic + strain + gravity;
             account.update_largest([kinetic, strain, gravity]);
@@ -122,8 +127,8 @@ impl System {
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
         let Motion { q, v } = self.motion_of_modes((base.oscillates, base.motion()), &mut work.account.modal);
-        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), q, v);
-        let hysteretic = self.hysteretic_energy(&base.storeys);
+        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.elements), q, v);
+        let hysteretic = self.hysteretic_energy(&base.elements);
         base.add_work_of_dashpots(&work.account.dashpots);
         if let Some(account) = &mut base.energy {
             account.add(&done);

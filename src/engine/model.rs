@@ -69,9 +69,9 @@ impl Model {
 
     /// Sets the position of rest to that of the storeys.
     pub(in crate::engine) fn set_rest(&self, base: &mut Base) {
-        self.system.set_rest(&base.storeys, &mut base.rest);
+        self.system.set_rest(&base.elements, &mut base.rest);
         base.rest.watched.resize(self.watched.rows.blocks() * LANES, 0.0);
-        if !base.storeys.is_empty() && !self.watched.rows.are_none() {
+        if !base.elements.is_empty() && !self.watched.rows.are_none() {
             self.peaks().set_watched_at_rest(base);
         }
     }

@@ -6,9 +6,9 @@
 use crate::contact::EpisodeForce;
 use crate::engine::base::contact::ContactPhase;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::element::Sense;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
-use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
@@ -152,7 +152,7 @@ impl Model {
             && (!base.oscillates
                 || self.system.structure.oscillators().is_some() && base.coordinates == Coordinates::Modes)
             && base.contacts.len() == self.system.pairs.len()
-            && base.storeys.len() == self.system.storeys.len()
+            && base.elements.len() == self.system.elements.len()
             && base.energy.is_some() == self.energy
             && base.dashpots.len() == self.system.structure.links.len()
             && inputs.are_as_many_as(&fresh.inputs);
@@ -190,25 +190,25 @@ impl Model {
 
     /// An element is not beyond its limits, and at one of them where it yields or has just turned.
     fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
-        for (of, (storey, centre)) in self.system.elements(&base.storeys) {
+        for (of, (element, centre)) in self.system.elements_at(&base.elements) {
             let (drift, size) = (of.row.value_at(base), of.row.size_at(base));
             let rounding = AT_LIMIT * (of.limit + size);
             let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) <= rounding);
             let is_at = |sense: Sense| of.excess(centre, sense, drift).abs() <= rounding;
-            let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
-            let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative.value >= 0.0;
-            if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
+            let is_at_limit = element.yields.is_none_or(is_at) && element.turned.is_none_or(is_at);
+            let has_flowed = element.furthest >= element.plastic.abs() && element.cumulative.value >= 0.0;
+            if !(is_within && is_at_limit && has_flowed && (element.yields.is_none() || element.turned.is_none())) {
                 return Err(match of.place {
                     ElementOf::Storey(side, storey) => EngineError::ImpossibleStorey { side, storey },
                     ElementOf::Link(link) => EngineError::ImpossibleLink { link },
                 });
             }
         }
-        let fallen = base.collapsed.map(|i| (self.system.storeys.get(i), base.storeys.get(i)));
+        let fallen = base.collapsed.map(|i| (self.system.elements.get(i), base.elements.get(i)));
         let has_fallen = fallen.is_none_or(|fallen| {
-            let (Some(of), Some(storey)) = fallen else { return false };
-            storey.yields.zip(of.collapse).is_some_and(|(sense, collapse)| {
-                (of.limit + sense.sign() * storey.plastic - collapse).abs() <= AT_LIMIT * collapse
+            let (Some(of), Some(element)) = fallen else { return false };
+            element.yields.zip(of.collapse).is_some_and(|(sense, collapse)| {
+                (of.limit + sense.sign() * element.plastic - collapse).abs() <= AT_LIMIT * collapse
             })
         });
         require(has_fallen, "the storey in it that has collapsed stands")

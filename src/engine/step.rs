@@ -4,9 +4,9 @@
 use crate::collocation::{Map, NODES};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
+use crate::engine::base::element::ElementState;
 use crate::engine::base::kinds::Kind;
 use crate::engine::base::planned::Planned;
-use crate::engine::base::storey::Storey;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::system::System;
@@ -215,11 +215,11 @@ impl Step {
     }
 
     /// Moves storey `i` from the base to the x of the powers, by which a series in time is evaluated there.
-    pub(super) fn move_storey(&self, i: usize, powers: &Powers, storey: &mut Storey) {
-        if let (Some(_), Dense::Taylor(solution)) = (storey.yields, self.dense())
+    pub(super) fn move_element(&self, i: usize, powers: &Powers, element: &mut ElementState) {
+        if let (Some(_), Dense::Taylor(solution)) = (element.yields, self.dense())
             && powers.x > 0.0
         {
-            *storey = storey.after(solution.drifts.change(i, &solution.series, powers));
+            *element = element.after(solution.drifts.change(i, &solution.series, powers));
         }
     }
 

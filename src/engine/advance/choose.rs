@@ -56,7 +56,7 @@ impl Model {
         kind
     }
 
-    /// In contact, or while a storey yields: the first of the kinds that are tried, or power series in time.
+    /// In contact, or while an element yields: the first of the kinds that are tried, or power series in time.
     fn plan_forced(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> Kind {
         let buffers = &mut work.buffers;
         let is_near_rigid = self.system.has_close_rigid_pair(at.base);

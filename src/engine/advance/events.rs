@@ -39,12 +39,12 @@ impl Model {
             Event::Release(p) => base.release(p, on_episode),
             Event::Branch(p) => base.contacts[p].change_branch(),
             Event::Yield(i, sense) => {
-                let storey = &mut base.storeys[i];
-                (storey.yields, storey.turned) = (Some(sense), None);
+                let element = &mut base.elements[i];
+                (element.yields, element.turned) = (Some(sense), None);
             }
             Event::Turn(i) => {
-                let storey = &mut base.storeys[i];
-                storey.turned = storey.yields.take();
+                let element = &mut base.elements[i];
+                element.turned = element.yields.take();
             }
             Event::Collapse(i) => base.collapsed = Some(i),
         }

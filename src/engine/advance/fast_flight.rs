@@ -1,4 +1,4 @@
-//! Fast flight: many whole segments of a record in which no two floors meet and no storey yields, in one loop.
+//! Fast flight: many whole segments of a record in which no two floors meet and no element yields, in one loop.
 //!
 //! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
@@ -102,7 +102,7 @@ impl Model {
             && self.system.structure.in_flight().is_classical()
             && (self.watched.rows.are_none() || self.peaks().logs_flights())
             && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface)
-            && !base.storeys.iter().any(|storey| storey.yields.is_some() || storey.turned.is_some());
+            && !base.elements.iter().any(|element| element.yields.is_some() || element.turned.is_some());
         if is_plain { self.system.watched_segment(base) } else { None }
     }
 

@@ -97,7 +97,7 @@ impl Model {
 
     /// The collapse that has ended the run of a state, if one has.
     pub fn collapse(&self, state: &State) -> Option<Collapse> {
-        match self.system.storeys[state.base.collapsed?].place {
+        match self.system.elements[state.base.collapsed?].place {
             ElementOf::Storey(side, storey) => Some(Collapse { side, storey, time: state.time }),
             ElementOf::Link(_) => None,
         }
@@ -242,17 +242,17 @@ impl Model {
     /// Moves the storeys, and with them the position of rest, to the end of the planned step, whose motion is that of the
     /// base by now.
     fn move_storeys(&self, base: &mut Base, step: &Step) {
-        if base.storeys.is_empty() || step.planned.length == 0.0 {
+        if base.elements.is_empty() || step.planned.length == 0.0 {
             return;
         }
-        base.storeys.iter_mut().for_each(|storey| storey.turned = None);
+        base.elements.iter_mut().for_each(|element| element.turned = None);
         if !base.is_yielding() {
             return;
         }
-        for i in 0..base.storeys.len() {
-            let (from, storey) = (base.storeys[i], &mut base.storeys[i]);
-            step.move_storey(i, step.end_powers(), storey);
-            self.system.storeys[i].move_rest(base.coordinates, (&from, storey), &mut base.q);
+        for i in 0..base.elements.len() {
+            let (from, element) = (base.elements[i], &mut base.elements[i]);
+            step.move_element(i, step.end_powers(), element);
+            self.system.elements[i].move_rest(base.coordinates, (&from, element), &mut base.q);
         }
         self.set_rest(base);
     }
@@ -263,14 +263,14 @@ impl Model {
         if !base.is_yielding() {
             return;
         }
-        for i in 0..base.storeys.len() {
-            let (of, (&from, centre)) = self.system.element(i, &base.storeys);
+        for i in 0..base.elements.len() {
+            let (of, (&from, centre)) = self.system.element_at(i, &base.elements);
             let Some(sense) = from.yields else { continue };
             let excess = of.excess(centre, sense, of.drift(base.coordinates, &base.q));
-            let storey = &mut base.storeys[i];
-            storey.plastic += sense.sign() * excess;
-            storey.furthest = storey.furthest.max(storey.plastic.abs());
-            of.move_rest(base.coordinates, (&from, storey), &mut base.q);
+            let element = &mut base.elements[i];
+            element.plastic += sense.sign() * excess;
+            element.furthest = element.furthest.max(element.plastic.abs());
+            of.move_rest(base.coordinates, (&from, element), &mut base.q);
         }
         self.set_rest(base);
     }

@@ -51,7 +51,7 @@ impl Counters {
         self.sum([Kind::Window, Kind::Onset, Kind::Series, Kind::Mapped])
     }
 
-    /// Steps in which a storey yields and no contact is closed.
+    /// Steps in which an element yields and no contact is closed.
     pub fn yielding_steps(&self) -> u64 {
         self.taken(Kind::Exact)
     }

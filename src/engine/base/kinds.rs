@@ -19,7 +19,7 @@ pub enum Kind {
     Window,
     /// Just after an entry under a power law: a double power series.
     Onset,
-    /// A storey yields or a link slips, and no contact is closed: a power series that is exact.
+    /// An element yields or a link slips, and no contact is closed: a power series that is exact.
     Exact,
     /// Any forces: power series in time.
     Series,
@@ -51,7 +51,7 @@ pub enum Refusal {
     SwitchedOff,
     /// No window, no onset: a rigid contact is closed or about to close.
     NearRigid,
-    /// No window, no onset: a storey yields or a link slips.
+    /// No window, no onset: an element yields or a link slips.
     Yielding,
     /// No windows in this scene: no law has a root at the surface, so that power series see no singularity.
     NoRoot,

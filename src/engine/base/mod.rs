@@ -3,18 +3,18 @@
 pub(super) mod clearance;
 pub(super) mod contact;
 pub(super) mod counters;
+pub(super) mod element;
 pub(super) mod kinds;
 pub(super) mod numbers;
 pub(super) mod peaks;
 pub(super) mod planned;
 pub(super) mod stop;
-pub(super) mod storey;
 
 use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::{Contact, ContactPhase, Episode};
+use crate::engine::base::element::ElementState;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::numerics::sum::Sum;
 use crate::structure::{FlightEnergy, LinearGround, Motion};
@@ -51,9 +51,9 @@ pub(super) struct Base {
     /// Velocities, m/s (modal coordinates: m kg^1/2/s).
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    /// The storeys that can yield.
-    pub storeys: Vec<Storey>,
-    /// Follows from the storeys.
+    /// The elements that can yield.
+    pub elements: Vec<ElementState>,
+    /// Follows from the elements.
     #[serde(skip)]
     pub rest: Rest,
     /// Pairs that are known to stay apart for some segments.
@@ -126,12 +126,12 @@ impl Base {
         self.contacts.iter().map(Contact::dissipated_energy).sum()
     }
 
-    /// Whether a storey yields.
+    /// Whether an element yields.
     pub(super) fn is_yielding(&self) -> bool {
-        self.storeys.iter().any(|storey| storey.yields.is_some())
+        self.elements.iter().any(|element| element.yields.is_some())
     }
 
-    /// Whether forces act that flights do not know of: those of contacts, or of storeys that yield.
+    /// Whether forces act that flights do not know of: those of contacts, or of elements that yield.
     pub(super) fn is_forced(&self) -> bool {
         self.contacts.iter().any(Contact::in_contact) || self.is_yielding()
     }

@@ -2,7 +2,7 @@
 
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::base::{Account, Base};
 use crate::numerics::sum::Sum;
 
@@ -16,8 +16,8 @@ impl Base {
             q,
             v,
             contacts,
-            storeys,
-            rest: _,      // follows from the storeys
+            elements,
+            rest: _,      // follows from the elements
             clearance: _, // counts, looked at by themselves
             peaks,
             energy,
@@ -25,14 +25,14 @@ impl Base {
             velocity_scale,
             last_length: _, // infinite where a series ended by itself
             impacts: _,
-            collapsed: _, // looked at with the storeys
+            collapsed: _, // looked at with the elements
         } = self;
         let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);
-        let of_storeys = storeys.iter().flat_map(Storey::numbers);
+        let of_elements = elements.iter().flat_map(ElementState::numbers);
         of_motion
             .chain(of_contacts)
-            .chain(of_storeys)
+            .chain(of_elements)
             .chain(peaks.numbers())
             .chain(energy.iter().flat_map(Account::numbers))
             .chain(dashpots.iter().flat_map(Sum::numbers))
@@ -41,8 +41,8 @@ impl Base {
     /// Displacements and velocities, with the contacts' penetrations and rates.
     pub(crate) fn numbers_of_motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
-        let of_storeys = self.storeys.iter().flat_map(Storey::numbers);
-        self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_storeys)
+        let of_elements = self.elements.iter().flat_map(ElementState::numbers);
+        self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_elements)
     }
 }
 

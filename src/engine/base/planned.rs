@@ -2,7 +2,7 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::storey::Sense;
+use crate::engine::base::element::Sense;
 use crate::engine::excitation::inputs::Inputs;
 use crate::numerics::roots;
 use crate::structure::{Motion, MotionMut};
@@ -18,9 +18,9 @@ pub(crate) enum Event {
     Branch(usize),
     /// A storey, numbered among those that can, begins to yield in a sense.
     Yield(usize, Sense),
-    /// The drift of a storey that yields turns: it is elastic again.
+    /// The drift of an element that yields turns: it is elastic again.
     Turn(usize),
-    /// A storey that yields has collapsed: the run ends.
+    /// An element that yields has collapsed: the run ends.
     Collapse(usize),
 }
 

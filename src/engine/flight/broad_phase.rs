@@ -1,9 +1,9 @@
-//! The broad phase: for each pair, and for all storeys that can yield, the number of segments of the record in which no
+//! The broad phase: for each pair, and for all elements that can yield, the number of segments of the record in which no
 //! limit can be reached, however the ground shakes in them ([`crate::engine::bounds::amplitude`]).
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::storey::Sense;
+use crate::engine::base::element::Sense;
 use crate::engine::bounds::amplitude::{Ends, Gain, MARGIN, ModeRates, Seen, TRIED, Together};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::system::System;
@@ -13,18 +13,18 @@ use crate::engine::system::System;
 pub struct BroadPhase {
     rates: ModeRates,
     pairs: Vec<Gain>,
-    storeys: Vec<Gain>,
+    elements: Vec<Gain>,
     /// What the bound on all storeys together gains per unit of cumulative absolute velocity, s/m.
     together: f64,
 }
 
 impl BroadPhase {
     /// For a system; `weight` is the largest |row| entry of each mode over its pairs and storeys.
-    pub fn of(System { structure, pairs, storeys, together, .. }: &System, weight: &[f64]) -> BroadPhase {
+    pub fn of(System { structure, pairs, elements, together, .. }: &System, weight: &[f64]) -> BroadPhase {
         let rates = ModeRates::of(structure, weight);
         BroadPhase {
             pairs: pairs.iter().map(|of| rates.gain(structure, of.in_flight(), of.row.share_of_ground)).collect(),
-            storeys: storeys.iter().map(|of| rates.gain(structure, of.in_flight(), of.row.share_of_ground)).collect(),
+            elements: elements.iter().map(|of| rates.gain(structure, of.in_flight(), of.row.share_of_ground)).collect(),
             together: together.largest_share(&rates.gains),
             rates,
         }
@@ -54,7 +54,7 @@ impl BroadPhase {
         base.clearance.are_all_free(segment)
     }
 
-    /// The largest of the tested numbers of segments for which all storeys stay elastic; 0 if they do for none. All
+    /// The largest of the tested numbers of segments for which all elements stay elastic; 0 if they do for none. All
     /// together are tested first, by the amplitudes alone; `size` bounds what displacements contribute to any drift.
     #[inline(always)]
     fn longest_elastic(
@@ -65,12 +65,12 @@ impl BroadPhase {
         ends: &[Ends; TRIED.len()],
     ) -> u64 {
         let share = (system.together.largest_share(amplitude), self.together);
-        let together = Together::longest(share, 1.0 - system.moved_share(&base.storeys), ends);
+        let together = Together::longest(share, 1.0 - system.moved_share(&base.elements), ends);
         if together > 0 {
             return together;
         }
         let mut least = u64::MAX;
-        for ((of, present), gain) in system.elements(&base.storeys).zip(&self.storeys) {
+        for ((of, present), gain) in system.elements_at(&base.elements).zip(&self.elements) {
             let seen = self.rates.see(of.in_flight(), base.motion(), amplitude);
             for sense in Sense::BOTH {
                 let start = of.start_of_flight(present, sense, seen.moved) + MARGIN * (of.limit + size);
@@ -114,8 +114,8 @@ fn look_ahead(
         let seen = Seen { rate: contact.rate, ..seen };
         base.clearance.clear(p, segment + seen.longest(&of.pairs[p], (1.0, start), &ends));
     }
-    if let Some(storeys) = system.place_of_storeys().filter(|storeys| !base.clearance.is_free(*storeys, segment)) {
+    if let Some(elements) = system.place_of_elements().filter(|elements| !base.clearance.is_free(*elements, segment)) {
         let segments = of.longest_elastic(system, base, (amplitude, size), &ends);
-        base.clearance.clear(storeys, segment + segments);
+        base.clearance.clear(elements, segment + segments);
     }
 }

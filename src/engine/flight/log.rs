@@ -1,7 +1,7 @@
 //! Logs of flights that are looked at later, many at once.
 //!
 //! Most quantities never come near their peaks, and which do is known best when the peaks are almost known. So flights
-//! are only logged; the log is folded into the peaks (`peaks/fold.rs`) when it is full, when a storey begins to yield, and
+//! are only logged; the log is folded into the peaks (`peaks/fold.rs`) when it is full, when an element begins to yield, and
 //! before a state is saved. Whoever reads a peak folds what is logged into a copy.
 //!
 //! Where damping couples modes, a second log holds the flights that wait to be added to the energy account (`energy.rs`).

@@ -1,5 +1,5 @@
-//! Flight: no floors touch and no storey yields, and both buildings move by their exact modal solution until the
-//! segment ends, two floors meet or a storey yields.
+//! Flight: no floors touch and no element yields, and both buildings move by their exact modal solution until the
+//! segment ends, two floors meet or an element yields.
 
 pub mod accounted;
 pub mod broad_phase;
@@ -21,7 +21,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{LinearLoad, Motion};
 
-/// Coefficients for the proofs that no pair meets and no storey yields; constant during a run.
+/// Coefficients for the proofs that no pair meets and no element yields; constant during a run.
 #[derive(Debug)]
 pub struct Flight {
     pub broad_phase: BroadPhase,
@@ -71,7 +71,7 @@ impl Flight {
         Kind::Searched
     }
 
-    /// Whether both ends of the planned flight prove that no pair meets and no storey yields in it; what is cleared for
+    /// Whether both ends of the planned flight prove that no pair meets and no element yields in it; what is cleared for
     /// its segment is not tested.
     pub fn both_ends_hold(
         &self,
@@ -103,7 +103,7 @@ impl Flight {
             let from = (contact.flight_start(), contact.rate);
             look.is_free[p] = !cfg!(without = "certificate") && stays_below(from, to, (h, deviation));
         }
-        let are_cleared = system.place_of_storeys().is_some_and(|storeys| is_cleared(base, storeys));
+        let are_cleared = system.place_of_elements().is_some_and(|elements| is_cleared(base, elements));
         for i in system.pairs.len()..system.limits() {
             look.is_free[i] = are_cleared || system.stays_within(base, i, [start, end], (h, deviation));
         }

@@ -114,7 +114,7 @@ impl Search<'_> {
             first.search(terms, noise, Event::Entry(p));
         }
         let is_start = *from == 0.0;
-        for i in (0..system.storeys.len()).filter(|i| !is_free[system.pairs.len() + i]) {
+        for i in (0..system.elements.len()).filter(|i| !is_free[system.pairs.len() + i]) {
             let expanded = ((&work.series, &ALL), None, is_start);
             system.first_yield(base, i, expanded, &mut first);
         }

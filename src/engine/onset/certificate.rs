@@ -1,7 +1,7 @@
 //! Length of an onset step up to which no contact changes its state, proved by bounds on the sums of the series' terms.
 
 use crate::engine::base::contact::Contact;
-use crate::engine::base::storey::Sense;
+use crate::engine::base::element::Sense;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::pairs::row::WeightRow;
@@ -35,7 +35,7 @@ impl System {
     /// on the pair's own terms.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
         let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
-        if apart.peek().is_none() && self.storeys.is_empty() {
+        if apart.peek().is_none() && self.elements.is_empty() {
             return true;
         }
         let (powers, _) = onset.powers.all();
@@ -43,7 +43,7 @@ impl System {
         let sizes = &mut sizes[..onset.lanes];
         sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
         let (x, coordinates) = (onset.powers.x, base.coordinates);
-        let are_elastic = self.elements(&base.storeys).all(|(of, (_, centre))| {
+        let are_elastic = self.elements_at(&base.elements).all(|(of, (_, centre))| {
             let (drift, step_rate) = (of.drift(coordinates, &base.q), of.drift(coordinates, &base.v) * onset.scale);
             let stays = |sense: Sense| {
                 let moved = x * (sense.sign() * step_rate).max(0.0) + of.row.difference(coordinates, sizes).1;

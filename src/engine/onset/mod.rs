@@ -1,7 +1,7 @@
 //! An onset step, the first after an entry under a power law: a double power series of the motion (see
 //! [`crate::contact::onset`]).
 //!
-//! The step ends before any event - a turn, a release, another entry, a storey that yields - is possible, as bounds on
+//! The step ends before any event - a turn, a release, another entry, an element that yields - is possible, as bounds on
 //! the sums of its terms prove. So it has no event of its own.
 
 pub mod certificate;

@@ -44,14 +44,14 @@ impl Instant<'_> {
         shown.extend(dashpots);
         work.dashpot_sums = sums;
         let soil = self.model.soil_springs().map(|spring| shown[spring]).sum();
-        let [kinetic, strain, gravity] = system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
-        let hysteretic = system.hysteretic_energy(&point.storeys);
+        let [kinetic, strain, gravity] = system.energies((point.coordinates, &point.elements), &point.q, &point.v);
+        let hysteretic = system.hysteretic_energy(&point.elements);
         let contacts = 0..system.pairs.len();
         let impact = contacts.map(|p| self.contact(p).dissipated_energy).sum();
         account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
         let Account { initial, largest, .. } = account;
         // Yielding goes on for tens of thousands of steps: there the rounding of plain sums would show.
-        let is_long = !system.storeys.is_empty();
+        let is_long = !system.elements.is_empty();
         let of = |sum: Sum| if is_long { sum.exact() } else { sum.value };
         let [input, external, viscous] = [account.input, account.external, account.viscous].map(of);
         let imbalance = initial + input + external - kinetic - (strain + gravity) - viscous - impact - hysteretic;

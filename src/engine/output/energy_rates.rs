@@ -1,7 +1,7 @@
 //! Rates of the energy account: powers and their rates, from the motion and its derivatives.
 
 use crate::engine::base::Coordinates;
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
@@ -33,7 +33,7 @@ impl Instant<'_> {
         };
         let strain = [product(u, rest, v), product(v, rest, v) + product(u, rest, a)];
         let hysteretic = self.hysteretic_rates([v, a]);
-        let yielding = system.storeys.iter().zip(&point.storeys).filter(|(_, storey)| storey.yields.is_some());
+        let yielding = system.elements.iter().zip(&point.elements).filter(|(_, element)| element.yields.is_some());
         let softened: f64 = yielding.map(|(of, _)| of.lost * libm::pow(of.drift(coordinates, v), 2.0)).sum();
         let strain = [strain[0] - hysteretic[0], strain[1] - softened - hysteretic[1]];
         let gravity = self.gravity_rates(rates);
@@ -71,10 +71,10 @@ impl Instant<'_> {
     fn hysteretic_rates(&self, motion: [&[f64]; 2]) -> Rates {
         let Instant { model, point, .. } = *self;
         motion.map(|motion| {
-            let power = |(of, storey): (&Element, &Storey)| {
-                of.kept() * of.force * (flow(storey) * of.drift(point.coordinates, motion))
+            let power = |(of, element): (&Element, &ElementState)| {
+                of.kept() * of.force * (flow(element) * of.drift(point.coordinates, motion))
             };
-            model.system.storeys.iter().zip(&point.storeys).map(power).sum()
+            model.system.elements.iter().zip(&point.elements).map(power).sum()
         })
     }
 

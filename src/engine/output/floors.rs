@@ -48,9 +48,9 @@ impl<'a> Instant<'a> {
         let Instant { model: Model { system, .. }, point, .. } = self;
         match point.coordinates {
             Coordinates::Modes => {
-                let at_rest = match point.storeys.is_empty() {
+                let at_rest = match point.elements.is_empty() {
                     true => 0.0,
-                    false => system.shear_at_rest(&point.storeys, side, &point.rest),
+                    false => system.shear_at_rest(&point.elements, side, &point.rest),
                 };
                 system.structure.base_shear(side, &point.q, &point.v) + at_rest
             }
@@ -74,7 +74,7 @@ impl<'a> Instant<'a> {
     fn note_motion(&self, block: usize, known: &KnownBlock<2>) {
         let point = self.point;
         let [mut moved, velocity] = self.floor_block(block, [&point.q, &point.v]);
-        if !point.storeys.is_empty() {
+        if !point.elements.is_empty() {
             let rest = &point.rest.as_chunks::<LANES>().0[block];
             moved = each(|i| moved[i] + rest[i]);
         }

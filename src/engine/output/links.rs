@@ -1,6 +1,6 @@
 //! Links at the observed time.
 
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{LinkOutput, Rates};
 use crate::engine::output::point_rates::PointRates;
@@ -14,34 +14,34 @@ impl<'a> Instant<'a> {
         let (system, point) = (&self.model.system, self.point);
         let rate = system.link_closing(l, &point.v);
         let closing = || {
-            let at_rest = if point.storeys.is_empty() { 0.0 } else { system.link_closing_of_floors(l, &point.rest) };
+            let at_rest = if point.elements.is_empty() { 0.0 } else { system.link_closing_of_floors(l, &point.rest) };
             system.link_closing(l, &point.q) + at_rest
         };
         let of_slip =
-            |value: fn(&Element, &Storey) -> f64| self.slip_of(l).map_or(0.0, |(of, storey)| value(of, storey));
+            |value: fn(&Element, &ElementState) -> f64| self.slip_of(l).map_or(0.0, |(of, element)| value(of, element));
         match of {
             LinkOutput::Displacement => closing(),
             LinkOutput::Velocity => rate,
             LinkOutput::Force => match self.slipping_force(l) {
                 Some(force) => force + system.structure.links[l].dashpot * rate,
-                None => system.link_force(&point.storeys, l, (closing(), rate)),
+                None => system.link_force(&point.elements, l, (closing(), rate)),
             },
             LinkOutput::DissipatedEnergy => {
                 let of_dashpot = self.energy().map_or(0.0, |_| point.dashpots.borrow()[l]);
                 of_dashpot + of_slip(Element::hysteretic_energy)
             }
-            LinkOutput::Slip => of_slip(|_, storey| storey.plastic),
-            LinkOutput::SlipTravel => of_slip(|_, storey| storey.cumulative.exact()),
-            LinkOutput::Slipping => of_slip(|_, storey| flow(storey)),
+            LinkOutput::Slip => of_slip(|_, element| element.plastic),
+            LinkOutput::SlipTravel => of_slip(|_, element| element.cumulative.exact()),
+            LinkOutput::Slipping => of_slip(|_, element| flow(element)),
         }
     }
 
     /// Force of the spring of a link that slips now, N: exactly on its yield line.
     fn slipping_force(&self, l: usize) -> Option<f64> {
-        let (system, storeys) = (&self.model.system, &self.point.storeys);
+        let (system, elements) = (&self.model.system, &self.point.elements);
         let i = system.number_of_link(l)?;
-        storeys.get(i).filter(|storey| storey.yields.is_some())?;
-        let (of, present) = system.element(i, storeys);
+        elements.get(i).filter(|element| element.yields.is_some())?;
+        let (of, present) = system.element_at(i, elements);
         Some(of.shear(present, 0.0))
     }
 
@@ -50,9 +50,10 @@ impl<'a> Instant<'a> {
     pub(super) fn peak_shown(&self, of: PeakOf) -> f64 {
         let (model, peak) = (self.model, self.peak(of));
         let PeakOf::LinkForce(l) = of else { return peak };
-        let has_slipped = |storey: &Storey| storey.furthest > 0.0 && model.system.structure.links[l].dashpot == 0.0;
-        let line = self.slip_of(l).filter(|(_, storey)| has_slipped(storey) && !model.watched.rows.are_none());
-        line.map_or(peak, |(of, storey)| peak.max(of.peak_shear(storey)))
+        let has_slipped =
+            |element: &ElementState| element.furthest > 0.0 && model.system.structure.links[l].dashpot == 0.0;
+        let line = self.slip_of(l).filter(|(_, element)| has_slipped(element) && !model.watched.rows.are_none());
+        line.map_or(peak, |(of, element)| peak.max(of.peak_shear(element)))
     }
 
     /// Rates of a quantity of a link.
@@ -62,9 +63,9 @@ impl<'a> Instant<'a> {
             [&point.v, &rates.acceleration, &rates.jerk].map(|motion| system.link_closing(l, motion));
         let jerk = if rates.is_beginning { 0.0 } else { jerk };
         let link = &system.structure.links[l];
-        let stiffness = link.stiffness - system.stiffness_lost_by_link(&point.storeys, l);
+        let stiffness = link.stiffness - system.stiffness_lost_by_link(&point.elements, l);
         let slip = self.slip_of(l);
-        let flow = slip.map_or(0.0, |(_, storey)| flow(storey));
+        let flow = slip.map_or(0.0, |(_, element)| flow(element));
         match of {
             LinkOutput::Displacement => [velocity, acceleration],
             LinkOutput::Velocity => [acceleration, jerk],
@@ -85,8 +86,8 @@ impl<'a> Instant<'a> {
     }
 
     /// The spring of a link that slips.
-    fn slip_of(&self, l: usize) -> Option<(&'a Element, &'a Storey)> {
+    fn slip_of(&self, l: usize) -> Option<(&'a Element, &'a ElementState)> {
         let i = self.model.system.number_of_link(l)?;
-        Some((&self.model.system.storeys[i], self.point.storeys.get(i)?))
+        Some((&self.model.system.elements[i], self.point.elements.get(i)?))
     }
 }

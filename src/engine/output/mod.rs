@@ -18,7 +18,7 @@ mod storeys;
 mod yielding;
 
 use crate::engine::base::contact::{Contact, Episode};
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PeakCell;
@@ -73,18 +73,18 @@ impl Model {
 
     /// Works out the storeys, and makes the motion that relative to their position of rest.
     fn note_storeys(&self, State { base, step, .. }: &State, elapsed: f64, work: &mut Buffers, point: &mut Point) {
-        if base.storeys.is_empty() {
+        if base.elements.is_empty() {
             return;
         }
-        point.storeys.clone_from(&base.storeys);
+        point.elements.clone_from(&base.elements);
         if base.is_yielding() && elapsed > 0.0 {
             step.set_powers(elapsed, &mut work.powers);
-            for (i, (storey, from)) in point.storeys.iter_mut().zip(&base.storeys).enumerate() {
-                step.move_storey(i, &work.powers, storey);
-                self.system.storeys[i].move_rest(point.coordinates, (from, storey), &mut point.q);
+            for (i, (element, from)) in point.elements.iter_mut().zip(&base.elements).enumerate() {
+                step.move_element(i, &work.powers, element);
+                self.system.elements[i].move_rest(point.coordinates, (from, element), &mut point.q);
             }
         }
-        self.system.set_rest_of_floors(&point.storeys, &mut point.rest);
+        self.system.set_rest_of_floors(&point.elements, &mut point.rest);
     }
 
     /// The scratch memory of a point, to be put back after use.
@@ -99,7 +99,7 @@ impl Model {
         point.oscillating = None;
         (point.q, point.v, point.rest) = (vec![0.0; lanes], vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
-        point.storeys = vec![Storey::default(); self.system.storeys.len()];
+        point.elements = vec![ElementState::default(); self.system.elements.len()];
         point.floors.make_room(lanes);
         point.work.replace(None);
         point.peaks = PeakCell::default();

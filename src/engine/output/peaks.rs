@@ -57,8 +57,8 @@ impl Model {
             _ if elapsed == 0.0 => self.peaks().raise_to_motion(base, peaks),
             _ if elapsed > 0.0 && step.is_in_contact() => {
                 q.clone_from(&point.q);
-                for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
-                    of.move_rest(point.coordinates, (now, storey), q);
+                for ((of, element), now) in self.system.elements.iter().zip(&base.elements).zip(&point.elements) {
+                    of.move_rest(point.coordinates, (now, element), q);
                 }
                 self.peaks().raise_over_part((base, step, inputs), (elapsed, Motion { q, v: &point.v }), peaks, work);
             }

@@ -1,6 +1,6 @@
 //! The solution at one time, by floors and contacts.
 
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
@@ -29,7 +29,7 @@ pub struct Point {
     pub(in crate::engine) oscillating: Option<[Vec<f64>; 2]>,
     pub(in crate::engine) floors: FloorMotions,
     /// The storeys that can yield.
-    pub(in crate::engine) storeys: Vec<Storey>,
+    pub(in crate::engine) elements: Vec<ElementState>,
     /// Displacements of all floors at rest, m.
     pub(in crate::engine) rest: Vec<f64>,
     /// The contacts, as far as they have been worked out.

@@ -100,7 +100,7 @@ impl Instant<'_> {
         let resisted = &mut resisted[order];
         let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
         system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
-        system.yield_to(coordinates, &point.storeys, motion.0, resisted);
+        system.yield_to(coordinates, &point.elements, motion.0, resisted);
         if rates.is_beginning {
             return;
         }
@@ -148,7 +148,7 @@ impl Instant<'_> {
     pub(super) fn base_shear_rates(&self, rates: &PointRates, side: Side) -> Rates {
         let Instant { model: Model { system, .. }, point, .. } = *self;
         let PointRates { acceleration, jerk, resisted, .. } = rates;
-        let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.storeys, side, motion);
+        let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.elements, side, motion);
         let [first, second] = match point.coordinates {
             Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
                 .map(|(motion, rate)| system.structure.base_shear(side, motion, rate) - yielded(motion)),

@@ -1,6 +1,6 @@
 //! The storeys that can yield at an observed time.
 
-use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::element::{ElementState, Sense};
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{Rates, YieldingOf};
@@ -22,7 +22,7 @@ impl<'a> Instant<'a> {
         match of {
             YieldingOf::Shear => storey.shear(present, storey.drift(point.coordinates, &point.q)),
             YieldingOf::PlasticDrift => now.plastic,
-            YieldingOf::ResidualDrift => storey.residual_drift(now, &point.storeys),
+            YieldingOf::ResidualDrift => storey.residual_drift(now, &point.elements),
             YieldingOf::Ductility => largest_drift() / storey.limit,
             YieldingOf::PeakStabilityIndex => storey.critical.map_or(0.0, |critical| largest_drift() / critical),
             YieldingOf::HystereticEnergy => storey.hysteretic_energy(now),
@@ -49,7 +49,7 @@ impl<'a> Instant<'a> {
             YieldingOf::PlasticDrift => flow.abs(),
             YieldingOf::ResidualDrift => {
                 let own = drift.map(|rate| flow.abs() * rate);
-                let present = (now, &self.point.storeys[..]);
+                let present = (now, &self.point.elements[..]);
                 return [0, 1].map(|order| storey.residual_rate(present, own[order], self.flows(motions[order])));
             }
             YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
@@ -86,7 +86,7 @@ impl<'a> Instant<'a> {
     /// Rates of the plastic drifts of all elements, from those of the motion.
     fn flows(&self, motion: &'a [f64]) -> impl Iterator<Item = f64> {
         let Instant { model, point, .. } = *self;
-        model.system.storeys.iter().zip(&point.storeys).map(|(of, storey)| match storey.yields {
+        model.system.elements.iter().zip(&point.elements).map(|(of, element)| match element.yields {
             Some(_) => of.drift(point.coordinates, motion),
             None => 0.0,
         })
@@ -100,12 +100,12 @@ impl<'a> Instant<'a> {
     fn yielding_storey(&self, place: (Side, usize)) -> Option<(&'a Element, Present<'a>)> {
         let Instant { model: Model { system, .. }, point, .. } = *self;
         let i = system.number_of_storey(place)?;
-        (i < point.storeys.len()).then(|| system.element(i, &point.storeys))
+        (i < point.elements.len()).then(|| system.element_at(i, &point.elements))
     }
 }
 
 /// The sense in which a storey or a spring yields, 1 or -1; 0 while it is elastic.
-pub(super) fn flow(now: &Storey) -> f64 {
+pub(super) fn flow(now: &ElementState) -> f64 {
     now.yields.map_or(0.0, Sense::sign)
 }
 
@@ -119,6 +119,6 @@ fn drift_of_share(storey: &Element, of: YieldingOf) -> Option<f64> {
 }
 
 /// Whether a storey that yields has never been further.
-fn is_furthest(now: &Storey) -> bool {
+fn is_furthest(now: &ElementState) -> bool {
     now.yields.is_some_and(|sense| sense.sign() * now.plastic >= (1.0 - PEAK_ROUNDING) * now.furthest)
 }

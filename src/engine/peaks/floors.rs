@@ -45,7 +45,7 @@ impl PeakFinder<'_> {
             }
         }
         out.shear = Side::BOTH.map(|side| self.shear_of(side, out));
-        if !self.system.storeys.is_empty() {
+        if !self.system.elements.is_empty() {
             for side in Side::BOTH {
                 out.shear[side as usize] += rest.watched[self.watched.rows.place(PeakOf::BaseShear(side))];
             }
@@ -60,7 +60,7 @@ impl PeakFinder<'_> {
     /// Takes from the accelerations and shears of a motion what storeys that yield do not resist with, where their drifts
     /// have changed since the base.
     pub(in crate::engine) fn soften(&self, base: &Base, end: &[f64], out: &mut FloorState) {
-        for (of, _) in self.system.storeys.iter().zip(&base.storeys).filter(|(_, storey)| storey.yields.is_some()) {
+        for (of, _) in self.system.elements.iter().zip(&base.elements).filter(|(_, element)| element.yields.is_some()) {
             let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
             of.row.push(Coordinates::Floors, force, &mut out.resisted);
             if let ElementOf::Storey(side, 0) = of.place {

@@ -41,14 +41,14 @@ impl PeakFinder<'_> {
     /// base, N.
     fn link_at(&self, l: usize, base: &Base, floors: &FloorState, softened: f64) -> [f64; 3] {
         let [closing, rate] = [&floors.u, &floors.v].map(|motion| self.system.link_closing_of_floors(l, motion));
-        let force = self.system.link_force(&base.storeys, l, (closing, rate)) - softened;
+        let force = self.system.link_force(&base.elements, l, (closing, rate)) - softened;
         [closing, rate, force]
     }
 
     fn courses_of_link(&self, l: usize, part: &ContactStep, work: &PeakWork) -> [LinkCourse; 2] {
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
         let (link, h) = (&self.system.structure.links[l], part.length);
-        let lost = self.system.stiffness_lost_by_link(&part.base.storeys, l);
+        let lost = self.system.stiffness_lost_by_link(&part.base.elements, l);
         let since = self.system.link_closing(l, part.end.q) - self.system.link_closing(l, &part.base.q);
         let [first, last] = [self.link_at(l, part.base, start, 0.0), self.link_at(l, part.base, end, lost * since)];
         // How fast its ends accelerate towards each other at most.

@@ -10,15 +10,15 @@ impl PeakFinder<'_> {
     /// Writes the watched quantities in the position of rest of the storeys of the base: accelerations are 0, and so are base
     /// shears without links.
     pub(in crate::engine) fn set_watched_at_rest(&self, base: &mut Base) {
-        let Base { rest: Rest { floors, watched, .. }, storeys, .. } = base;
+        let Base { rest: Rest { floors, watched, .. }, elements, .. } = base;
         let (system, place) = (&self.system, |of| self.watched.rows.place(of));
         for l in 0..system.structure.links.len() {
             let closing = system.link_closing_of_floors(l, floors);
             watched[place(PeakOf::LinkDisplacement(l))] = closing;
-            watched[place(PeakOf::LinkForce(l))] = system.link_force(storeys, l, (closing, 0.0));
+            watched[place(PeakOf::LinkForce(l))] = system.link_force(elements, l, (closing, 0.0));
         }
         for side in Side::BOTH {
-            watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(storeys, side, floors);
+            watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(elements, side, floors);
             for (floor, lane) in system.structure.floors.lanes_of(side as usize).enumerate() {
                 watched[place(PeakOf::Displacement(side, floor))] = floors[lane];
                 let below = system.structure.floors.below(side, floor, floors);
@@ -46,8 +46,8 @@ impl PeakFinder<'_> {
             PeakOf::LinkForce(l) => self.system.number_of_link(l),
             _ => None,
         };
-        let Some(i) = number.filter(|i| base.storeys[*i].yields.is_some()) else { return 0.0 };
-        let of = &self.system.storeys[i];
+        let Some(i) = number.filter(|i| base.elements[*i].yields.is_some()) else { return 0.0 };
+        let of = &self.system.elements[i];
         match base.coordinates {
             Coordinates::Modes => {
                 rows[0].iter_mut().zip(&of.row.modes).for_each(|(entry, row)| *entry -= of.lost * row)

@@ -13,7 +13,7 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{ContactPhase, Episode};
-use crate::engine::base::storey::Sense;
+use crate::engine::base::element::Sense;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;
@@ -91,12 +91,12 @@ impl System {
     /// Storeys whose drift an impulse has turned back are elastic again.
     fn turn_storeys(&self, base: &mut Base) {
         let velocities = &base.v;
-        for (of, storey) in self.storeys.iter().zip(&mut base.storeys) {
+        for (of, element) in self.elements.iter().zip(&mut base.elements) {
             let goes_back = |sense: &Sense| sense.sign() * of.row.difference(base.coordinates, velocities).0 < 0.0;
-            if storey.yields.as_ref().is_some_and(goes_back) {
-                storey.yields = None;
+            if element.yields.as_ref().is_some_and(goes_back) {
+                element.yields = None;
             }
-            storey.turned = None;
+            element.turned = None;
         }
     }
 

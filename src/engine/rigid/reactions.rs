@@ -101,7 +101,7 @@ impl System {
         if rigid.pairs.is_empty() {
             return false;
         }
-        let row = &self.storeys[i].row.modes;
+        let row = &self.elements[i].row.modes;
         self.solve_for(rigid, |p| dot(&self.pairs[p].row.modes, row));
         let whole = dot(row, row);
         let made_of_theirs: f64 = rigid.found.iter().zip(&rigid.known).map(|(share, known)| share * known).sum();

@@ -1,6 +1,6 @@
 //! Links, and soil as links on foundations, in a motion: how far their ends have come nearer, and what that and their dashpots push with.
 
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::system::System;
 use crate::engine::yielding::element::ElementOf;
 use crate::structure::{Side, dot};
@@ -18,10 +18,10 @@ impl System {
     }
 
     /// Force with which a link pushes its ends apart, N, from how far and how fast they have come nearer, m and m/s.
-    pub fn link_force(&self, storeys: &[Storey], l: usize, (closing, rate): (f64, f64)) -> f64 {
+    pub fn link_force(&self, elements: &[ElementState], l: usize, (closing, rate): (f64, f64)) -> f64 {
         let link = &self.structure.links[l];
         // What its spring has lost by slipping.
-        let slack = self.number_of_link(l).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic);
+        let slack = self.number_of_link(l).map_or(0.0, |i| self.elements[i].lost * elements[i].plastic);
         link.stiffness * closing + link.dashpot * rate - slack
     }
 
@@ -36,19 +36,19 @@ impl System {
     }
 
     /// What is missing of the stiffness of a link's spring while it slips, N/m.
-    pub fn stiffness_lost_by_link(&self, storeys: &[Storey], l: usize) -> f64 {
-        let slips = self.number_of_link(l).filter(|i| storeys[*i].yields.is_some());
-        slips.map_or(0.0, |i| self.storeys[i].lost)
+    pub fn stiffness_lost_by_link(&self, elements: &[ElementState], l: usize) -> f64 {
+        let slips = self.number_of_link(l).filter(|i| elements[*i].yields.is_some());
+        slips.map_or(0.0, |i| self.elements[i].lost)
     }
 
     /// Base shear of a building in the position of rest, N: links hold what they have to, between floors that have yielded.
-    pub fn shear_at_rest(&self, storeys: &[Storey], side: Side, floors: &[f64]) -> f64 {
+    pub fn shear_at_rest(&self, elements: &[ElementState], side: Side, floors: &[f64]) -> f64 {
         let Some([on_u, _]) = self.structure.shear_rows_of_floors(side) else { return 0.0 };
         let elastic: f64 = on_u
             .iter()
             .zip(&floors[self.structure.floors.lanes_with_foundation(side as usize)])
             .map(|(k, u)| k * u)
             .sum();
-        elastic - self.number_of_storey((side, 0)).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
+        elastic - self.number_of_storey((side, 0)).map_or(0.0, |i| self.elements[i].lost * elements[i].plastic)
     }
 }

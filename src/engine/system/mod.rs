@@ -10,8 +10,8 @@ pub mod yields;
 
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
+use crate::engine::base::element::ElementState;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::bounds::amplitude::Together;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
@@ -32,12 +32,12 @@ pub struct System {
     pub structure: Structure,
     /// What gravity takes of the stiffness of each storey, N/m; empty for a building on whose lean it does not act.
     pub gravity: [Vec<f64>; 2],
-    /// The fastest rate of the buildings with or without storeys that yield, 1/s.
+    /// The fastest rate of the buildings with or without elements that yield, 1/s.
     pub fastest: f64,
     pub pairs: Vec<Pair>,
     pub rigid: RigidPairs,
-    /// The storeys that can yield.
-    pub storeys: Vec<Element>,
+    /// The elements that can yield.
+    pub elements: Vec<Element>,
     /// The bound on all of their drifts, as shares of their yield drifts.
     pub together: Together,
     /// The record; absent where the ground acceleration is an input.
@@ -53,8 +53,8 @@ pub struct System {
     pub impulse_response: Option<ImpulseResponse>,
     /// Modal displacements relative to the position of rest, m kg^1/2, and velocities at the start of a run.
     initial: [Vec<f64>; 2],
-    /// The storeys then: displaced beyond their yield drift, they have yielded before.
-    initial_storeys: Vec<Storey>,
+    /// The elements then: displaced beyond their yield drift, they have yielded before.
+    initial_elements: Vec<ElementState>,
     /// 1 for every floor: the influence vector of the ground motion.
     ones: Vec<f64>,
 }
@@ -77,22 +77,22 @@ impl System {
         };
         let has_power_law = pairs.iter().any(Pair::has_power_law);
         let impulse_response = has_power_law.then(|| ImpulseResponse::of(&structure)).flatten();
-        let storeys = Element::all(scene, &structure);
+        let elements = Element::all(scene, &structure);
         let floors = initial_floors(scene, &structure);
-        let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(&floors)).collect();
+        let initial_elements: Vec<ElementState> = elements.iter().map(|of| of.at_start(&floors)).collect();
         let mut initial = floors.map(|motion| of_modes(&motion, &structure));
-        for (of, storey) in storeys.iter().zip(&initial_storeys) {
-            of.lift(Coordinates::Modes, -storey.plastic, &mut initial[0]);
+        for (of, element) in elements.iter().zip(&initial_elements) {
+            of.lift(Coordinates::Modes, -element.plastic, &mut initial[0]);
         }
         let gravity =
             |building: &Building| if building.has_gravity() { building.gravity_stiffness() } else { Vec::new() };
         Ok(System {
             gravity: [&scene.left, &scene.right].map(gravity),
-            fastest: storeys.iter().fold(structure.fastest, |most, of| most.max(of.growth() * structure.fastest)),
+            fastest: elements.iter().fold(structure.fastest, |most, of| most.max(of.growth() * structure.fastest)),
             initial,
-            initial_storeys,
-            together: Together::of(&structure, storeys.iter().map(|of| (of.in_flight(), of.limit))),
-            storeys,
+            initial_elements,
+            together: Together::of(&structure, elements.iter().map(|of| (of.in_flight(), of.limit))),
+            elements,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
@@ -113,7 +113,7 @@ impl System {
             Some(ground) => ground.segment_at(time),
             None => Segment::under_input(time, 0.0, &LinearInput::default()),
         };
-        let rest = self.rest_of(&self.initial_storeys);
+        let rest = self.rest_of(&self.initial_elements);
         let pairs = self.pairs.iter().zip(&rest.gaps).enumerate();
         let contacts: Vec<Contact> =
             pairs.map(|(p, (pair, gap))| pair.at_start(p, time, *gap, Motion { q: &q, v: &v })).collect();
@@ -121,7 +121,7 @@ impl System {
             segment,
             elapsed: time - segment.start,
             clearance: Clearance::new(self.cleared()),
-            storeys: self.initial_storeys.clone(),
+            elements: self.initial_elements.clone(),
             rest,
             peaks,
             energy,
@@ -138,19 +138,19 @@ impl System {
         }
     }
 
-    /// Number of what is cleared for segments ahead: the pairs, and all storeys that can yield as one more.
+    /// Number of what is cleared for segments ahead: the pairs, and all elements that can yield as one more.
     pub fn cleared(&self) -> usize {
-        self.pairs.len() + usize::from(!self.storeys.is_empty())
+        self.pairs.len() + usize::from(!self.elements.is_empty())
     }
 
-    /// The place of all storeys that can yield among what is cleared, if there are any.
-    pub fn place_of_storeys(&self) -> Option<usize> {
-        (!self.storeys.is_empty()).then_some(self.pairs.len())
+    /// The place of all elements that can yield among what is cleared, if there are any.
+    pub fn place_of_elements(&self) -> Option<usize> {
+        (!self.elements.is_empty()).then_some(self.pairs.len())
     }
 
     /// The largest share of its yield drift by which the plastic drift of a storey has moved its limits.
-    pub fn moved_share(&self, storeys: &[Storey]) -> f64 {
-        self.elements(storeys).map(|(of, (_, centre))| of.moved_share(centre)).fold(0.0, f64::max)
+    pub fn moved_share(&self, elements: &[ElementState]) -> f64 {
+        self.elements_at(elements).map(|(of, (_, centre))| of.moved_share(centre)).fold(0.0, f64::max)
     }
 
     /// Whether a master's inputs act on the system, so that steps end at communication points.

@@ -1,6 +1,6 @@
 //! The position in which the buildings would come to rest: plastic drifts move it, and all motion is relative to it.
 
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::base::{Coordinates, Rest};
 use crate::engine::system::System;
 use crate::engine::yielding::element::{Element, ElementOf, Present};
@@ -9,54 +9,66 @@ use crate::structure::Side;
 
 impl System {
     /// The position of rest of some storeys.
-    pub fn rest_of(&self, storeys: &[Storey]) -> Rest {
+    pub fn rest_of(&self, elements: &[ElementState]) -> Rest {
         let mut rest = Rest::default();
-        self.set_rest(storeys, &mut rest);
+        self.set_rest(elements, &mut rest);
         rest
     }
 
     /// Sets a position of rest to that of some storeys, in the same order of sums whatever it was.
-    pub fn set_rest(&self, storeys: &[Storey], rest: &mut Rest) {
+    pub fn set_rest(&self, elements: &[ElementState], rest: &mut Rest) {
         // A position of rest that has been read from bytes has no numbers yet.
         rest.floors.resize(self.structure.lanes, 0.0);
         rest.gaps.resize(self.pairs.len(), 0.0);
-        self.set_rest_of_floors(storeys, &mut rest.floors);
+        self.set_rest_of_floors(elements, &mut rest.floors);
         for (gap, pair) in rest.gaps.iter_mut().zip(&self.pairs) {
             *gap = pair.gap_at(&rest.floors);
         }
     }
 
     /// Sets the displacements of all floors at rest, m.
-    pub fn set_rest_of_floors(&self, storeys: &[Storey], floors: &mut [f64]) {
+    pub fn set_rest_of_floors(&self, elements: &[ElementState], floors: &mut [f64]) {
         floors.fill(0.0);
-        for (of, storey) in self.storeys.iter().zip(storeys) {
-            of.lift(Coordinates::Floors, storey.plastic, floors);
+        for (of, element) in self.elements.iter().zip(elements) {
+            of.lift(Coordinates::Floors, element.plastic, floors);
         }
     }
 
-    /// Adds to accelerations by stiffness (or their rates) what storeys that yield do not resist with, for displacements (or
+    /// Adds to accelerations by stiffness (or their rates) what elements that yield do not resist with, for displacements (or
     /// velocities) since they began to.
-    pub fn yield_to(&self, coordinates: Coordinates, storeys: &[Storey], motion: &[f64], accelerations: &mut [f64]) {
-        for (of, _) in self.storeys.iter().zip(storeys).filter(|(_, storey)| storey.yields.is_some()) {
+    pub fn yield_to(
+        &self,
+        coordinates: Coordinates,
+        elements: &[ElementState],
+        motion: &[f64],
+        accelerations: &mut [f64],
+    ) {
+        for (of, _) in self.elements.iter().zip(elements).filter(|(_, element)| element.yields.is_some()) {
             of.row.push(coordinates, of.lost * of.drift(coordinates, motion), accelerations);
         }
     }
 
     /// The same for the base shear of a building, N.
-    pub fn yielded_base_shear(&self, coordinates: Coordinates, storeys: &[Storey], side: Side, motion: &[f64]) -> f64 {
-        let yielding = self.number_of_storey((side, 0)).filter(|i| storeys[*i].yields.is_some());
-        yielding.map_or(0.0, |i| self.storeys[i].lost * self.storeys[i].drift(coordinates, motion))
+    pub fn yielded_base_shear(
+        &self,
+        coordinates: Coordinates,
+        elements: &[ElementState],
+        side: Side,
+        motion: &[f64],
+    ) -> f64 {
+        let yielding = self.number_of_storey((side, 0)).filter(|i| elements[*i].yields.is_some());
+        yielding.map_or(0.0, |i| self.elements[i].lost * self.elements[i].drift(coordinates, motion))
     }
 
     /// The elements, each with its state and the middle of its elastic range.
-    pub fn elements<'a>(&'a self, storeys: &'a [Storey]) -> impl Iterator<Item = (&'a Element, Present<'a>)> {
-        self.storeys.iter().zip(storeys).map(|(of, storey)| (of, (storey, of.centre(storey, storeys))))
+    pub fn elements_at<'a>(&'a self, elements: &'a [ElementState]) -> impl Iterator<Item = (&'a Element, Present<'a>)> {
+        self.elements.iter().zip(elements).map(|(of, element)| (of, (element, of.centre(element, elements))))
     }
 
     /// One of them.
-    pub fn element<'s>(&self, i: usize, storeys: &'s [Storey]) -> (&Element, Present<'s>) {
-        let (of, storey) = (&self.storeys[i], &storeys[i]);
-        (of, (storey, of.centre(storey, storeys)))
+    pub fn element_at<'s>(&self, i: usize, elements: &'s [ElementState]) -> (&Element, Present<'s>) {
+        let (of, element) = (&self.elements[i], &elements[i]);
+        (of, (element, of.centre(element, elements)))
     }
 
     /// The number of a storey of a building, counted from 0, among those that can yield.
@@ -66,12 +78,12 @@ impl System {
 
     /// The number of an element among those that can yield.
     pub fn number_of(&self, place: ElementOf) -> Option<usize> {
-        self.storeys.binary_search_by_key(&place.order(), |of| of.place.order()).ok()
+        self.elements.binary_search_by_key(&place.order(), |of| of.place.order()).ok()
     }
 
     /// What the strain energy exceeds that of the motion relative to the position of rest by, J.
-    pub fn locked_energy(&self, storeys: &[Storey]) -> f64 {
-        self.elements(storeys).map(|(of, present)| of.locked_energy(present)).sum()
+    pub fn locked_energy(&self, elements: &[ElementState]) -> f64 {
+        self.elements_at(elements).map(|(of, present)| of.locked_energy(present)).sum()
     }
 
     /// The storeys on whose lean gravity acts, with g, N/m.
@@ -82,26 +94,26 @@ impl System {
     }
 
     /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g lean^2.
-    pub fn gravity_energy(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64]) -> f64 {
+    pub fn gravity_energy(&self, (coordinates, elements): (Coordinates, &[ElementState]), q: &[f64]) -> f64 {
         let of = |(place, g): ((Side, usize), f64)| {
-            let lean = self.lean(coordinates, place, q) + self.lean_at_rest(place, storeys);
+            let lean = self.lean(coordinates, place, q) + self.lean_at_rest(place, elements);
             -0.5 * g * (lean * lean)
         };
         self.leaning().map(of).sum()
     }
 
     /// Lean of a storey in the position of rest, m.
-    fn lean_at_rest(&self, (side, storey): (Side, usize), storeys: &[Storey]) -> f64 {
+    fn lean_at_rest(&self, (side, storey): (Side, usize), elements: &[ElementState]) -> f64 {
         if !self.structure.body(side).is_linked {
             let own = self.number_of_storey((side, storey));
-            return own.map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
+            return own.map_or(0.0, |i| self.elements[i].kept() * elements[i].plastic);
         }
         let floors = &self.structure.floors;
-        let moved = |(of, state): (&Element, &Storey)| {
+        let moved = |(of, state): (&Element, &ElementState)| {
             let of_place = |(place, weight)| Some(weight * of.moves_floor(floors.lane_of(side, place)?));
             floors.places(side).lean(storey).filter_map(of_place).sum::<f64>() * state.plastic
         };
-        self.storeys.iter().zip(storeys).map(moved).sum()
+        self.elements.iter().zip(elements).map(moved).sum()
     }
 
     /// Lean of a storey in a motion: its drift, and by how much its foundation has turned.
@@ -122,8 +134,8 @@ impl System {
         })
     }
 
-    /// Energy dissipated by all storeys that have yielded, J.
-    pub fn hysteretic_energy(&self, storeys: &[Storey]) -> f64 {
-        self.storeys.iter().zip(storeys).map(|(of, storey)| of.hysteretic_energy(storey)).sum()
+    /// Energy dissipated by all elements that have yielded, J.
+    pub fn hysteretic_energy(&self, elements: &[ElementState]) -> f64 {
+        self.elements.iter().zip(elements).map(|(of, element)| of.hysteretic_energy(element)).sum()
     }
 }

@@ -1,8 +1,8 @@
 //! The first instant at which an elastic storey yields, by a power series of the motion.
 
 use crate::engine::base::Base;
+use crate::engine::base::element::Sense;
 use crate::engine::base::planned::{Event, First};
-use crate::engine::base::storey::Sense;
 use crate::engine::system::System;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::substitution::Substitution;
@@ -21,7 +21,7 @@ impl System {
         series: &MotionSeries,
         drift: &mut Coefficients,
     ) {
-        let of = &self.storeys[i];
+        let of = &self.elements[i];
         let angle = fastest * series.scale;
         let rounding = 8.0 * f64::EPSILON * angle * angle * (size + of.limit);
         drift[2] = if drift[2].abs() <= rounding { 0.0 } else { drift[2] };
@@ -38,7 +38,7 @@ impl System {
         ((series, factors), substitution, is_start): Expanded,
         first: &mut First,
     ) {
-        let (of, (storey, centre)) = self.element(i, &base.storeys);
+        let (of, (element, centre)) = self.element_at(i, &base.elements);
         let mut drift = [0.0; MAX_TERMS];
         let size = match base.oscillates {
             true => of.in_flight().project(series, factors, &mut drift),
@@ -46,7 +46,7 @@ impl System {
         };
         let noise = of.noise(centre, size);
         let count = series.order + 1;
-        if is_start && storey.turned.is_some() {
+        if is_start && element.turned.is_some() {
             let rate_and_size = match base.oscillates {
                 true => (self.structure.in_flight().fastest, of.in_flight().size_at_start(series)),
                 false => (self.structure.fastest, of.row.difference(base.coordinates, series.term(0)).1),
@@ -56,7 +56,7 @@ impl System {
         for sense in Sense::BOTH {
             let mut terms = drift.map(|term| sense.sign() * term);
             terms[0] = of.excess(centre, sense, drift[0]).min(0.0);
-            if is_start && storey.turned == Some(sense) {
+            if is_start && element.turned == Some(sense) {
                 (terms[0], terms[1]) = (0.0, 0.0);
             }
             if let Some(substitution) = substitution.filter(|_| series.time_map.is_curved()) {

@@ -1,4 +1,4 @@
-//! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the
+//! A step in which an element yields and no contact is closed: all is linear, and a power series within reach of the
 //! fastest mode is exact. What both of its ends prove not to happen needs no search.
 
 use crate::engine::base::kinds::Refusal;
@@ -63,7 +63,7 @@ impl System {
         for &(i, sense) in &solution.drifts.yielding {
             self.first_change(base, solution, (i, sense), &mut first);
         }
-        for (i, (of, present)) in self.elements(&base.storeys).enumerate() {
+        for (i, (of, present)) in self.elements_at(&base.elements).enumerate() {
             let at = |Motion { q, v }: Motion| (of.drift(coordinates, q), of.drift(coordinates, v));
             let (start, end) = (at(base.motion()), at(planned.motion()));
             let off = deviation(h, of.row.difference(coordinates, fourths).1);

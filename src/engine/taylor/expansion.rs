@@ -31,21 +31,21 @@ impl System {
     fn start_series(&self, base: &Base, solution: &mut Solution, scale: f64) {
         solution.series.start(scale, &base.q, &base.v);
         solution.closed.start(base, &self.pairs, scale);
-        solution.drifts.start(base, &self.storeys, scale);
+        solution.drifts.start(base, &self.elements, scale);
     }
 
     /// Extends the started series to `order`.
     fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
         let (structure, loads) = (&self.structure, work.loads());
         let Solution { series, closed, drifts, .. } = solution;
-        let storeys = &self.storeys[..];
+        let elements = &self.elements[..];
         match base.coordinates {
             Coordinates::Floors => {
                 with_forces!(closed, FloorJacobian, |pairs| series.expand_floors(
                     &structure.floors,
                     order,
                     loads,
-                    &mut WithYielding { storeys, drifts, pairs }
+                    &mut WithYielding { elements, drifts, pairs }
                 ));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
@@ -54,14 +54,14 @@ impl System {
                         structure,
                         order,
                         loads,
-                        &mut WithYielding { storeys, drifts, pairs }
+                        &mut WithYielding { elements, drifts, pairs }
                     ));
                 } else {
                     with_forces!(closed, PackedModalJacobian, |pairs| series.expand_few_modes(
                         structure,
                         order,
                         loads,
-                        &mut WithYielding { storeys, drifts, pairs }
+                        &mut WithYielding { elements, drifts, pairs }
                     ));
                 }
             }
@@ -102,7 +102,7 @@ impl System {
                 _ => {}
             }
             closed.each_force(n, |p, force| self.push_apart_by(p, Coordinates::Modes, force, out));
-            drifts.push(&self.storeys, n, 1.0, out);
+            drifts.push(&self.elements, n, 1.0, out);
         };
         series.extend(&self.structure, load_of_power, |acceleration| self.constrain(rigid, acceleration));
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
@@ -110,7 +110,7 @@ impl System {
         }
         *reaction_order = n;
         let term = series.term(n + 2);
-        drifts.read(&self.storeys, n + 2, term);
+        drifts.read(&self.elements, n + 2, term);
         closed.set_penetrations(n + 2, |p, at_surface| {
             let row = &self.pairs[p].row.modes;
             if at_surface { difference(row, term).0 } else { dot(row, term) }

@@ -1,4 +1,4 @@
-//! A Taylor step in contact, or while a storey yields: power series in time of the motion and of the contact forces.
+//! A Taylor step in contact, or while an element yields: power series in time of the motion and of the contact forces.
 //!
 //! Each power follows from the ones before by a few vector operations; only the contact forces need products of series.
 //! The last terms determine the step length. The motion is that of the floors where these are many and coupled to their

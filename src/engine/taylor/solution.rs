@@ -18,7 +18,7 @@ pub struct Solution {
     pub series: MotionSeries,
     /// Penetrations and forces of the closed pairs.
     pub closed: ClosedPairs,
-    /// Drifts of the storeys that yield.
+    /// Drifts of the elements that yield.
     pub drifts: YieldingDrifts,
     /// Bounds on the penetrations of the open pairs.
     pub open: OpenPairs,
@@ -38,7 +38,7 @@ impl Solution {
         let on_floors = system.contact_coordinates == Coordinates::Floors;
         Solution {
             closed: ClosedPairs::new(&system.pairs, on_floors),
-            drifts: YieldingDrifts::new(system.storeys.len()),
+            drifts: YieldingDrifts::new(system.elements.len()),
             open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
             series: MotionSeries::new(system.structure.lanes, MAX_ORDER + 2),

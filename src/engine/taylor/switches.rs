@@ -1,7 +1,7 @@
 //! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
 
+use crate::engine::base::element::{ElementState, Sense};
 use crate::engine::base::planned::{Event, First};
-use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::terms::Horizon;
 use crate::engine::system::System;
@@ -16,14 +16,14 @@ use crate::structure::Motion;
 const STILL: f64 = 1e-13;
 
 impl System {
-    /// The number of a yielding storey whose drift has the wrong sense at the base, by an impulse or by rounding: it
+    /// The number of a yielding element whose drift has the wrong sense at the base, by an impulse or by rounding: it
     /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
-        let goes_back = |(of, storey): (&Element, &Storey)| {
+        let goes_back = |(of, element): (&Element, &ElementState)| {
             let still = STILL * self.size_of_rate(of, base.coordinates, base.motion(), 1.0);
-            storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
+            element.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
         };
-        self.storeys.iter().zip(&base.storeys).position(goes_back)
+        self.elements.iter().zip(&base.elements).position(goes_back)
     }
 
     /// Sum of the magnitudes that the rate of a drift is made of, from displacements and velocities times a
@@ -37,9 +37,9 @@ impl System {
         }
     }
 
-    /// Looks for the first instant up to the end of the step at which a storey yields or turns.
+    /// Looks for the first instant up to the end of the step at which an element yields or turns.
     pub fn first_switch(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
-        if self.storeys.is_empty() {
+        if self.elements.is_empty() {
             return;
         }
         for &(i, sense) in &solution.drifts.yielding {
@@ -50,12 +50,12 @@ impl System {
         }
         let Solution { series, end, substitution, .. } = solution;
         let horizon = Horizon::of(series, end.x, &mut work.node_q);
-        for (i, (of, (storey, centre))) in self.elements(&base.storeys).enumerate() {
+        for (i, (of, (element, centre))) in self.elements_at(&base.elements).enumerate() {
             let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
             let wandered = of.row.difference(base.coordinates, horizon.wandered).1;
             let stays_elastic =
                 |sense: Sense| horizon.is_beyond(of.excess(centre, sense, drift), sense.sign() * step, wandered);
-            let is_sure = storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
+            let is_sure = element.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
             if is_sure || self.holds_storey(i, &mut work.rigid) {
                 continue;
             }
@@ -65,13 +65,13 @@ impl System {
         }
     }
 
-    /// Looks for the first instant at which a storey that yields turns or collapses.
+    /// Looks for the first instant at which an element that yields turns or collapses.
     pub fn first_change(&self, base: &Base, solution: &Solution, yielding: (usize, Sense), first: &mut First) {
         self.first_turn(solution, yielding, first);
         self.first_collapse(base, solution, yielding, first);
     }
 
-    /// Looks for the first instant at which the drift of a storey that yields is that of its collapse.
+    /// Looks for the first instant at which the drift of an element that yields is that of its collapse.
     fn first_collapse(
         &self,
         base: &Base,
@@ -79,10 +79,10 @@ impl System {
         (i, sense): (usize, Sense),
         first: &mut First,
     ) {
-        let Some(collapse) = self.storeys[i].collapse else { return };
+        let Some(collapse) = self.elements[i].collapse else { return };
         let count = series.order + 1;
         let mut terms = drifts.drifts[i].map(|term| sense.sign() * term);
-        terms[0] = (sense.sign() * base.storeys[i].plastic + self.storeys[i].limit - collapse).min(0.0);
+        terms[0] = (sense.sign() * base.elements[i].plastic + self.elements[i].limit - collapse).min(0.0);
         if series.time_map.is_curved() {
             substitution.apply_to_one(&mut terms[..count]);
         }
@@ -90,7 +90,7 @@ impl System {
         first.search(&mut terms[..count], noise, Event::Collapse(i));
     }
 
-    /// Looks for the first instant at which the drift of a storey that yields turns: at once where it does not go on in its
+    /// Looks for the first instant at which the drift of an element that yields turns: at once where it does not go on in its
     /// sense by more than rounding, as that of a floor that is held.
     fn first_turn(&self, solution: &Solution, (i, sense): (usize, Sense), first: &mut First) {
         let Solution { series, drifts, substitution, .. } = solution;
@@ -101,13 +101,13 @@ impl System {
         }
         let [q, step] = [0, 1].map(|n| series.term(n));
         let still =
-            STILL * self.size_of_rate(&self.storeys[i], drifts.coordinates, Motion { q, v: step }, series.scale);
+            STILL * self.size_of_rate(&self.elements[i], drifts.coordinates, Motion { q, v: step }, series.scale);
         if terms[0] >= -still {
             // What is rounding shall not decide.
             let mut drift = [0.0; MAX_TERMS];
-            self.storeys[i].row.project(drifts.coordinates, series, &ALL, &mut drift);
+            self.elements[i].row.project(drifts.coordinates, series, &ALL, &mut drift);
             drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-            let size = self.storeys[i].row.difference(drifts.coordinates, series.term(0)).1;
+            let size = self.elements[i].row.difference(drifts.coordinates, series.term(0)).1;
             self.clear_curvature((self.structure.fastest, size), i, series, &mut drift);
             let leading = drift[1..=count].iter().find(|term| **term != 0.0);
             if leading.is_none_or(|term| sense.sign() * term < 0.0) {

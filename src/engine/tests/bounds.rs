@@ -11,7 +11,7 @@ use super::motions::{
 };
 use crate::collocation::SolvedWindow;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::flight::Flight;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::solution::Window;
@@ -27,8 +27,8 @@ fn compare_ahead(case: &mut Case, random: &mut Random, p: usize, comparison: &mu
     let (row, flight) = (&case.rows()[p], case.flight(segments));
     let is_storey = p == case.system.pairs.len();
     let plastic = if is_storey { random.between(-0.1, 0.1) * size(row, &flight) } else { 0.0 };
-    case.base.storeys[0] = Storey { plastic, ..Storey::default() };
-    let shift = if is_storey { case.system.storeys[0].ratio * plastic } else { 0.0 };
+    case.base.elements[0] = ElementState { plastic, ..ElementState::default() };
+    let shift = if is_storey { case.system.elements[0].ratio * plastic } else { 0.0 };
     let value = |x: f64| if is_storey { (x - shift).abs() } else { x };
     let now = value(row.value(&case.base.q, &case.base.v));
     let rounding = ROUNDING * (size(row, &flight) + shift.abs());
@@ -167,14 +167,14 @@ fn envelopes_are_never_left() {
         let is_storey = p == 3;
         // A storey that has yielded is elastic about another drift.
         let shift = if is_storey { shifts.between(-1.0, 1.0) * size(&row, &motion) } else { 0.0 };
-        let plastic = shift / case.system.storeys[0].ratio;
-        case.base.storeys[0] = Storey { plastic, ..Storey::default() };
+        let plastic = shift / case.system.elements[0].ratio;
+        case.base.elements[0] = ElementState { plastic, ..ElementState::default() };
         let value = |x: f64| if is_storey { (x - shift).abs() } else { x };
         let now = value(row.value(&case.base.q, &case.base.v));
         let bound = threshold(now.min(0.0), |limit| {
             case.base.rest.gaps.fill(1e9);
             limit_storey(&mut case.system, 1e9);
-            *(if is_storey { &mut case.system.storeys[0].limit } else { &mut case.base.rest.gaps[p] }) = limit;
+            *(if is_storey { &mut case.system.elements[0].limit } else { &mut case.base.rest.gaps[p] }) = limit;
             let Case { system, base, .. } = &case;
             system.envelopes_stay_within(base, base.motion(), LinearLoad { load: &load, slope: &slope }, time)
         });

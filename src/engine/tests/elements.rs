@@ -2,7 +2,7 @@
 //! floors.
 
 use crate::engine::base::Coordinates;
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::engine::system::System;
 use crate::engine::yielding::element::ElementOf;
 use crate::scene::{Link, Place, Scene, Side, Slip};
@@ -37,11 +37,11 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
         ElementOf::Storey(Side::Right, 0),
         ElementOf::Link(1),
     ];
-    assert_eq!(system.storeys.iter().map(|of| of.place).collect::<Vec<_>>(), places);
+    assert_eq!(system.elements.iter().map(|of| of.place).collect::<Vec<_>>(), places);
     assert_eq!(places.map(|place| system.number_of(place)), [0, 1, 2, 3].map(Some));
     assert_eq!((system.number_of_link(0), system.number_of_link(1)), (None, Some(3)));
     // Of the ground's acceleration, drifts between two floors get nothing.
-    assert_eq!(system.storeys.iter().map(|of| of.row.share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
+    assert_eq!(system.elements.iter().map(|of| of.row.share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
     // (row, k, (1 - r) k) of the elements, and the link that does not slip.
     let elements = [
         ([1.0, 0.0, 0.0], 2e7, 0.9 * 2e7),
@@ -53,27 +53,27 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
     .map(|(row, k, lost)| (DVector::from_row_slice(&row), k, lost));
     let stiffness: DMatrix<f64> = elements.iter().map(|(row, k, _)| *k * row * row.transpose()).sum();
     let plastic = [0.004, -0.007, 0.01, -0.003];
-    let storeys = plastic.map(|plastic| Storey { plastic, ..Storey::default() });
+    let states = plastic.map(|plastic| ElementState { plastic, ..ElementState::default() });
     let forces: DVector<f64> = elements.iter().zip(&plastic).map(|((row, _, lost), p)| lost * *p * row).sum();
     let rest = stiffness.clone().lu().solve(&forces).unwrap();
-    let found = system.rest_of(&storeys).floors;
+    let found = system.rest_of(&states).floors;
     for (i, rest) in rest.iter().enumerate() {
         assert!((found[i] - rest).abs() < 1e-16, "floor {i}: {} not {rest}", found[i]);
     }
     let mut locked = -0.5 * rest.dot(&(&stiffness * &rest));
     for (i, (row, k, lost)) in elements.iter().enumerate().take(4) {
-        let (of, (storey, centre)) = system.element(i, &storeys);
+        let (of, (element, centre)) = system.element_at(i, &states);
         let at_rest = row.dot(&rest);
         assert!((centre - (plastic[i] - at_rest)).abs() < 1e-16, "{i}: {centre}");
-        assert!((of.residual_drift(storey, &storeys) - at_rest).abs() < 1e-16, "{i}");
+        assert!((of.residual_drift(element, &states) - at_rest).abs() < 1e-16, "{i}");
         // At rest: x = 0.
         let shear = k * at_rest - lost * plastic[i];
-        assert!((of.shear((storey, centre), 0.0) - shear).abs() < 1e-9, "{i}: not {shear} N");
+        assert!((of.shear((element, centre), 0.0) - shear).abs() < 1e-9, "{i}: not {shear} N");
         assert_eq!(of.noise(centre, 0.0), 2.0 * f64::EPSILON * (of.limit + centre.abs()));
         assert_eq!(of.moved_share(centre), centre.abs() / of.limit);
         locked += 0.5 * lost * plastic[i] * plastic[i];
     }
-    let found = system.locked_energy(&storeys);
+    let found = system.locked_energy(&states);
     assert!((found - locked).abs() < 1e-12 * locked, "{found} not {locked} J");
 }
 
@@ -82,16 +82,16 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
 #[test]
 fn only_its_own_elastic_part_follows_a_plastic_drift() {
     let system = linked();
-    let mut storeys = [0.004, -0.007, 0.01, -0.003].map(|plastic| Storey { plastic, ..Storey::default() });
+    let mut elements = [0.004, -0.007, 0.01, -0.003].map(|plastic| ElementState { plastic, ..ElementState::default() });
     let mut q: Vec<f64> = (0..system.structure.lanes).map(|m| if m < 3 { 0.5 - 0.3 * m as f64 } else { 0.0 }).collect();
-    let parts = |storeys: &[Storey], q: &[f64]| -> Vec<f64> {
-        system.elements(storeys).map(|(of, (_, centre))| of.drift(Coordinates::Modes, q) - centre).collect()
+    let parts = |elements: &[ElementState], q: &[f64]| -> Vec<f64> {
+        system.elements_at(elements).map(|(of, (_, centre))| of.drift(Coordinates::Modes, q) - centre).collect()
     };
     for i in 0..4 {
-        let (before, from) = (parts(&storeys, &q), storeys[i]);
-        storeys[i] = from.after(0.002);
-        system.storeys[i].move_rest(Coordinates::Modes, (&from, &storeys[i]), &mut q);
-        for (j, (before, after)) in before.iter().zip(parts(&storeys, &q)).enumerate() {
+        let (before, from) = (parts(&elements, &q), elements[i]);
+        elements[i] = from.after(0.002);
+        system.elements[i].move_rest(Coordinates::Modes, (&from, &elements[i]), &mut q);
+        for (j, (before, after)) in before.iter().zip(parts(&elements, &q)).enumerate() {
             let expected = if j == i { before - 0.002 } else { *before };
             assert!((after - expected).abs() < 1e-16, "{j} after {i}: {after} not {expected}");
         }
@@ -117,10 +117,10 @@ fn the_drift_from_which_a_storey_falls_moves_with_what_holds_it() {
     });
     let system = System::of(&scene, None).unwrap();
     let told = |plastic: [f64; 2]| {
-        let storeys = plastic.map(|plastic| Storey { plastic, ..Storey::default() });
+        let elements = plastic.map(|plastic| ElementState { plastic, ..ElementState::default() });
         let rates = [0.3, -0.7];
-        let rate = system.storeys[0].residual_rate((&storeys[0], &storeys), rates[0], rates.into_iter());
-        (system.storeys[0].residual_drift(&storeys[0], &storeys), rate)
+        let rate = system.elements[0].residual_rate((&elements[0], &elements), rates[0], rates.into_iter());
+        (system.elements[0].residual_drift(&elements[0], &elements), rate)
     };
     // The spring beside the left storey moves by p of itself, in series with 1e7 N/m.
     let held = 2e6 * 1e7 / (2e6 + 1e7);

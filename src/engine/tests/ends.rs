@@ -107,8 +107,8 @@ fn both_ends_show_that_a_flight_is_free() {
         let mut look = Look::new(row.sizes.len(), 4);
         let bound = threshold(now, |limit| {
             base.rest.gaps.fill(1e9);
-            system.storeys[0].limit = 1e9;
-            *(if p == 3 { &mut system.storeys[0].limit } else { &mut base.rest.gaps[p] }) = limit;
+            system.elements[0].limit = 1e9;
+            *(if p == 3 { &mut system.elements[0].limit } else { &mut base.rest.gaps[p] }) = limit;
             for ((pair, gap), contact) in system.pairs.iter().zip(&base.rest.gaps).zip(&mut base.contacts) {
                 (contact.penetration, contact.rate) = pair.penetration(*gap, Motion { q: &base.q, v: &base.v });
             }

@@ -298,8 +298,8 @@ impl Case {
 
 /// Gives the storey that can yield another yield drift, m.
 pub fn limit_storey(system: &mut System, limit: f64) {
-    system.storeys[0].limit = limit;
-    system.together = Together::of(&system.structure, system.storeys.iter().map(|of| (of.in_flight(), of.limit)));
+    system.elements[0].limit = limit;
+    system.together = Together::of(&system.structure, system.elements.iter().map(|of| (of.in_flight(), of.limit)));
 }
 
 /// A quantity in flights: a row over modes or the coordinates of oscillators, and one over their rates.

@@ -1,8 +1,8 @@
-//! Proof that no storey yields within a window, by the amplitudes of the modes, to which the contact forces add
+//! Proof that no element yields within a window, by the amplitudes of the modes, to which the contact forces add
 //! (damping couples no modes in windows).
 
 use crate::engine::base::Base;
-use crate::engine::base::storey::Sense;
+use crate::engine::base::element::Sense;
 use crate::engine::bounds::amplitude::{MARGIN, pushed};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -10,9 +10,9 @@ use crate::engine::window::solution::Window;
 use crate::structure::LinearLoad;
 
 impl Window {
-    /// Whether no storey yields within the window; the load at its start is in `work`.
+    /// Whether no element yields within the window; the load at its start is in `work`.
     pub fn stays_elastic(&self, system: &System, base: &Base, work: &mut Buffers) -> bool {
-        if system.storeys.is_empty() {
+        if system.elements.is_empty() {
             return true;
         }
         let h = self.solution.length;
@@ -20,8 +20,8 @@ impl Window {
         let closed = self.contacts.iter().zip(&self.greatest).take(self.equation.closed);
         let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row.modes[..], h * greatest));
         pushed(&system.structure.omega2, base.motion(), LinearLoad { load, slope }, h, impulses, amplitudes);
-        system.together.largest_share(amplitudes) + system.moved_share(&base.storeys) < 1.0
-            || system.elements(&base.storeys).all(|(of, (_, centre))| {
+        system.together.largest_share(amplitudes) + system.moved_share(&base.elements) < 1.0
+            || system.elements_at(&base.elements).all(|(of, (_, centre))| {
                 let most: f64 =
                     of.row.modes.iter().zip(&*amplitudes).map(|(row, amplitude)| row.abs() * amplitude).sum();
                 let (drift, change) = (of.drift(base.coordinates, &base.q), (1.0 + MARGIN) * h * most);

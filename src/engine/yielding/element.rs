@@ -5,7 +5,7 @@
 //! it is that of the columns. Without gravity both are the same.
 
 use crate::engine::base::Coordinates;
-use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::element::{ElementState, Sense};
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::flight_row::FlightRow;
@@ -47,7 +47,7 @@ pub(crate) struct Element {
 }
 
 /// The state of an element, and the middle of the range in which it is elastic, m, as a drift relative to the position of rest.
-pub(crate) type Present<'a> = (&'a Storey, f64);
+pub(crate) type Present<'a> = (&'a ElementState, f64);
 
 impl ElementOf {
     /// The order of elements: storeys from the left and the bottom, then links.
@@ -124,15 +124,15 @@ impl Element {
 
     /// The element at the start of a run, from displacements and velocities of all floors: beyond its yield drift it has been
     /// pushed there slowly.
-    pub(crate) fn at_start(&self, [displacements, velocities]: &[Vec<f64>; 2]) -> Storey {
+    pub(crate) fn at_start(&self, [displacements, velocities]: &[Vec<f64>; 2]) -> ElementState {
         let [drift, rate] = [displacements, velocities].map(|motion| self.drift(Coordinates::Floors, motion));
         if drift.abs() < self.limit {
-            return Storey::default();
+            return ElementState::default();
         }
         let sense = if drift > 0.0 { Sense::Positive } else { Sense::Negative };
         let plastic = drift - sense.sign() * self.limit;
         let turned = (rate == 0.0).then_some(sense);
-        Storey { turned, plastic, furthest: plastic.abs(), ..Storey::default() }
+        ElementState { turned, plastic, furthest: plastic.abs(), ..ElementState::default() }
     }
 
     /// The row of its drift in flights.
@@ -160,7 +160,7 @@ impl Element {
     pub(crate) fn move_rest(
         &self,
         coordinates: Coordinates,
-        (from, to): (&Storey, &Storey),
+        (from, to): (&ElementState, &ElementState),
         displacements: &mut [f64],
     ) {
         let change = to.plastic - from.plastic;
@@ -183,8 +183,8 @@ impl Element {
 
     /// The middle of the range in which it is elastic, from its own state and those of all elements, m.
     #[inline(always)]
-    pub(crate) fn centre(&self, storey: &Storey, all: &[Storey]) -> f64 {
-        self.lift.centre(self.ratio, storey, all)
+    pub(crate) fn centre(&self, element: &ElementState, all: &[ElementState]) -> f64 {
+        self.lift.centre(self.ratio, element, all)
     }
 
     /// How far beyond the limit of one sense it is with a drift x relative to the position of rest, m: below 0 while it is
@@ -196,8 +196,8 @@ impl Element {
 
     /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above
     /// 0.
-    pub(crate) fn start_of_flight(&self, (storey, centre): Present, sense: Sense, x: f64) -> f64 {
-        if storey.turned == Some(sense) { 0.0 } else { self.excess(centre, sense, x).min(0.0) }
+    pub(crate) fn start_of_flight(&self, (element, centre): Present, sense: Sense, x: f64) -> f64 {
+        if element.turned == Some(sense) { 0.0 } else { self.excess(centre, sense, x).min(0.0) }
     }
 
     /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by
@@ -229,45 +229,45 @@ impl Element {
 
     /// Storey shear, N, what the columns resist with, at a drift x relative to the position of rest; while it yields,
     /// exactly on its yield line.
-    pub(crate) fn shear(&self, (storey, centre): Present, x: f64) -> f64 {
+    pub(crate) fn shear(&self, (element, centre): Present, x: f64) -> f64 {
         let NetStorey { stiffness, force, ratio, gravity } = self.of;
-        let hardened = stiffness * (ratio * storey.plastic);
-        match storey.yields {
+        let hardened = stiffness * (ratio * element.plastic);
+        match element.yields {
             Some(sense) => sense.sign() * force + hardened,
             None if self.lift.is_of_all() => stiffness * (x - centre) + hardened,
-            None => stiffness * x + gravity * (self.kept() * storey.plastic),
+            None => stiffness * x + gravity * (self.kept() * element.plastic),
         }
     }
 
     /// Stiffness of the columns, N/m: what is left of it while the storey yields.
-    pub(crate) fn stiffness(&self, storey: &Storey) -> f64 {
-        if storey.yields.is_some() { self.of.ratio * self.of.stiffness } else { self.of.stiffness }
+    pub(crate) fn stiffness(&self, element: &ElementState) -> f64 {
+        if element.yields.is_some() { self.of.ratio * self.of.stiffness } else { self.of.stiffness }
     }
 
     /// The largest shear so far of a storey that has yielded, N: it has been largest where the plastic drift was.
-    pub(crate) fn peak_shear(&self, storey: &Storey) -> f64 {
-        self.of.force + self.of.ratio * self.of.stiffness * storey.furthest
+    pub(crate) fn peak_shear(&self, element: &ElementState) -> f64 {
+        self.of.force + self.of.ratio * self.of.stiffness * element.furthest
     }
 
     /// The drift at which the storey would come to rest, m: beyond a plastic drift that gravity does not let it come back
     /// from, the critical one.
-    pub(crate) fn residual_drift(&self, storey: &Storey, all: &[Storey]) -> f64 {
-        let centre = self.centre(storey, all);
+    pub(crate) fn residual_drift(&self, element: &ElementState, all: &[ElementState]) -> f64 {
+        let centre = self.centre(element, all);
         match self.critical.filter(|_| self.cannot_rest(centre)) {
-            Some(critical) => self.lift.critical(critical, (storey.plastic, centre), self.limit),
-            None => self.lift.at_rest(storey.plastic, all.iter().map(|other| other.plastic)),
+            Some(critical) => self.lift.critical(critical, (element.plastic, centre), self.limit),
+            None => self.lift.at_rest(element.plastic, all.iter().map(|other| other.plastic)),
         }
     }
 
     /// Its rate, from the rates of the plastic drifts: its own, and those of all elements.
     pub(crate) fn residual_rate(
         &self,
-        (storey, all): (&Storey, &[Storey]),
+        (element, all): (&ElementState, &[ElementState]),
         own: f64,
         rates: impl Iterator<Item = f64>,
     ) -> f64 {
         let rate = self.lift.at_rest(own, rates);
-        match self.critical.is_some() && self.cannot_rest(self.centre(storey, all)) {
+        match self.critical.is_some() && self.cannot_rest(self.centre(element, all)) {
             true => self.lift.critical_rate((own, own - rate)),
             false => rate,
         }
@@ -281,22 +281,22 @@ impl Element {
 
     /// The largest drift so far, m, from the largest one that has been watched: once the storey has yielded its drift has been
     /// largest where the plastic drift was.
-    pub(crate) fn largest_drift(&self, storey: &Storey, peak_drift: f64) -> f64 {
-        if storey.furthest > 0.0 { self.limit + storey.furthest } else { peak_drift }
+    pub(crate) fn largest_drift(&self, element: &ElementState, peak_drift: f64) -> f64 {
+        if element.furthest > 0.0 { self.limit + element.furthest } else { peak_drift }
     }
 
     /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.
-    pub(crate) fn hysteretic_energy(&self, storey: &Storey) -> f64 {
-        self.kept() * self.force * storey.cumulative.exact()
+    pub(crate) fn hysteretic_energy(&self, element: &ElementState) -> f64 {
+        self.kept() * self.force * element.cumulative.exact()
     }
 
     /// Its part of the elastic energy locked in by plastic drifts, J, which no motion relative to the position of rest has:
     /// (1 - r) k p / 2 times the middle of its elastic range. In a building without links that is r' (1 - r') k' p^2 / 2; with
     /// x = z + r' p it is r' k' d^2/2 + (1 - r') k' z^2/2 - k' x^2/2.
-    pub(crate) fn locked_energy(&self, (storey, centre): Present) -> f64 {
+    pub(crate) fn locked_energy(&self, (element, centre): Present) -> f64 {
         match self.lift.is_of_all() {
-            true => 0.5 * self.lost * (storey.plastic * centre),
-            false => 0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic),
+            true => 0.5 * self.lost * (element.plastic * centre),
+            false => 0.5 * self.ratio * self.lost * (element.plastic * element.plastic),
         }
     }
 }

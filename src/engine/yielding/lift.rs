@@ -10,7 +10,7 @@
 //! with K the stiffness of the body with all of its links and soil, of which the modes are.
 
 use crate::engine::base::Coordinates;
-use crate::engine::base::storey::Storey;
+use crate::engine::base::element::ElementState;
 use crate::structure::{Side, Structure, dot};
 use std::ops::Range;
 
@@ -137,11 +137,11 @@ impl Lift {
 
     /// The middle of the range in which the element is elastic, as a drift relative to the position of rest, m: its own
     /// plastic drift less the drift at rest. `ratio` is its post-yield ratio.
-    pub(super) fn centre(&self, ratio: f64, storey: &Storey, all: &[Storey]) -> f64 {
+    pub(super) fn centre(&self, ratio: f64, element: &ElementState, all: &[ElementState]) -> f64 {
         match self {
-            Lift::Above { .. } => ratio * storey.plastic,
+            Lift::Above { .. } => ratio * element.plastic,
             Lift::All { by, .. } => {
-                by.iter().zip(all).fold(storey.plastic, |centre, (by, other)| centre - by * other.plastic)
+                by.iter().zip(all).fold(element.plastic, |centre, (by, other)| centre - by * other.plastic)
             }
         }
     }
