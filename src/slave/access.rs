@@ -40,7 +40,7 @@ impl Slave {
     }
 
     /// The value of a variable.
-    #[inline]
+    #[inline(always)]
     fn read(&mut self, reference: u32, slot: Slot, ty: Type) -> Result<Value<'_>, Refusal> {
         Ok(match slot {
             Slot::Output(output) => match self.held.as_ref().and_then(|held| held.get(reference)) {

@@ -86,6 +86,7 @@ impl Slave {
     ///
     /// # Errors
     /// A call that the standard does not allow in the present phase.
+    #[inline]
     pub fn check(&self, call: Call) -> Result<(), Refusal> {
         if call.is_allowed_in(self.phase, self.interface.version()) { Ok(()) } else { Err(self.out_of_sequence(call)) }
     }
@@ -103,11 +104,13 @@ impl Slave {
     }
 
     /// Turns the result of a call into its status. After an error the standard allows little but a reset.
+    #[inline]
     pub fn report(&mut self, call: Call, result: Result<Status, Refusal>) -> Status {
-        let refusal = match result {
-            Ok(status) => return status,
-            Err(refusal) => refusal,
-        };
+        result.unwrap_or_else(|refusal| self.report_refusal(call, refusal))
+    }
+
+    #[cold]
+    fn report_refusal(&mut self, call: Call, refusal: Refusal) -> Status {
         self.phase = Phase::Error;
         for problem in refusal.problems {
             self.log.add(Category::StatusError, format!("{}: {problem}", self.name(call)));
@@ -119,6 +122,11 @@ impl Slave {
     pub fn report_fatal(&mut self, call: Call, failure: &str) -> Status {
         self.log.add(Category::StatusFatal, format!("{}: internal failure: {failure}", self.name(call)));
         Status::Fatal
+    }
+
+    /// Whether there are messages since the last time.
+    pub fn has_messages(&self) -> bool {
+        self.log.has_any()
     }
 
     /// The messages since the last time.

@@ -65,6 +65,11 @@ impl Log {
         }
     }
 
+    /// Whether there are messages.
+    pub fn has_any(&self) -> bool {
+        !self.pending.is_empty()
+    }
+
     /// The messages so far; there are none afterwards.
     pub fn take(&mut self) -> Vec<Message> {
         mem::take(&mut self.pending)

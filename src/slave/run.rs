@@ -46,6 +46,7 @@ impl Run {
     }
 
     /// The collapse that has ended the run, if one has.
+    #[inline]
     pub(super) fn collapse(&self) -> Option<Collapse> {
         match self {
             Run::NotStarted(_) => None,
@@ -82,12 +83,18 @@ impl Run {
     pub(super) fn start(&mut self, settings: &Settings) -> Result<&mut Simulation, Refusal> {
         match self {
             Run::Started(simulation) => Ok(simulation),
-            Run::NotStarted(start) => {
-                let simulation = Simulation::start(Arc::new(model(settings)?), start.clone());
-                *self = Run::Started(simulation);
-                self.start(settings)
-            }
+            Run::NotStarted(_) => self.begin(settings),
         }
+    }
+
+    /// Puts a simulation of these settings in the place of what there is.
+    #[cold]
+    #[inline(never)]
+    fn begin(&mut self, settings: &Settings) -> Result<&mut Simulation, Refusal> {
+        if let Run::NotStarted(start) = self {
+            *self = Run::Started(Simulation::start(Arc::new(model(settings)?), start.clone()));
+        }
+        self.start(settings)
     }
 
     /// Drops the simulation; time and inputs stay.

@@ -81,6 +81,7 @@ macro_rules! calls {
 
         impl Call {
             /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
+            #[inline(always)]
             pub const fn rule(self, version: FmiVersion) -> CallRow {
                 match (self, version) {
                     $((Call::$call, FmiVersion::V2) => $of_2, (Call::$call, FmiVersion::V3) => $of_3,)+
@@ -140,6 +141,7 @@ impl Call {
     }
 
     /// Whether the standard allows the call in a phase.
+    #[inline(always)]
     pub fn is_allowed_in(self, phase: Phase, version: FmiVersion) -> bool {
         self.rule(version).1.contains(&phase)
     }

@@ -85,6 +85,7 @@ impl Simulation {
     }
 
     /// The collapse that has ended the run, if one has.
+    #[inline]
     pub(super) fn collapse(&self) -> Option<Collapse> {
         self.model.collapse(&self.state)
     }

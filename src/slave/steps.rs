@@ -86,9 +86,17 @@ impl Slave {
 
     /// The status of a step: FMI 2.0 has no other way to say that the run has ended than to discard it. FMI 3.0 has, and a
     /// master makes one more step to hear it that has been told in Event Mode.
+    #[inline]
     fn tell_collapse(&mut self) -> Status {
-        let Some(collapse) = self.run.collapse() else { return Status::Ok };
-        let text = describe_collapse(&collapse);
+        match self.run.collapse() {
+            Some(collapse) => self.tell(&collapse),
+            None => Status::Ok,
+        }
+    }
+
+    #[cold]
+    fn tell(&mut self, collapse: &Collapse) -> Status {
+        let text = describe_collapse(collapse);
         if self.interface.version() == FmiVersion::V2 || std::mem::replace(&mut self.has_told_end, true) {
             return self.discard_for(Call::DoStep, vec![text]);
         }
@@ -117,6 +125,7 @@ impl Slave {
     }
 
     /// Whether a storey has collapsed, which ends the run.
+    #[inline]
     pub fn is_over(&self) -> bool {
         self.run.collapse().is_some()
     }
@@ -135,28 +144,25 @@ impl Slave {
         &mut self,
         work: impl FnOnce(&mut Simulation, &mut dyn FnMut(&Episode)) -> Result<T, Refusal>,
     ) -> Result<T, Refusal> {
-        let log_events = self.log.is_enabled(Category::Events);
-        let mut events = Vec::new();
-        let result = work(self.start()?, &mut |episode| {
-            if log_events {
-                events.push(describe(episode));
+        let Slave { run, settings, log, .. } = self;
+        work(run.start(settings)?, &mut |episode| {
+            if log.is_enabled(Category::Events) {
+                log.add(Category::Events, describe(episode));
             }
-        });
-        for event in events {
-            self.log.add(Category::Events, event);
-        }
-        result
+        })
     }
 
     /// The discrete outputs as they are, where the master sees them change in Event Mode only although events are handled
     /// within steps.
+    #[inline]
     pub(super) fn hold(&mut self) -> Result<Option<Held>, Refusal> {
-        if !self.interface.holds_discrete_outputs() {
-            return Ok(None);
-        }
+        if self.interface.holds_discrete_outputs() { self.read_held().map(Some) } else { Ok(None) }
+    }
+
+    fn read_held(&mut self) -> Result<Held, Refusal> {
         self.held = None;
         let Slave { table, run, settings, .. } = self;
-        Ok(Some(Held::read(table, &run.start(settings)?.now())))
+        Ok(Held::read(table, &run.start(settings)?.now()))
     }
 
     /// Keeps them until Event Mode is entered, if any has another value by now. A run that is over has no Event Mode to come:

@@ -78,6 +78,7 @@ impl<'a> Instant<'a> {
                 let of_side = model.collapse(state).filter(|collapse| collapse.side == side);
                 of_side.map_or(-1.0, |collapse| collapse.time)
             }
+            Output::Contact(p, ContactOutput::Force) if !state.base.contacts[p].in_contact() => 0.0,
             Output::Contact(p, of) => self.contact(p).get(of),
             Output::Link(l, of) => self.link(l, of),
             Output::Foundation(side, FoundationOutput::Acceleration) => {

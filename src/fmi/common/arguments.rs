@@ -61,14 +61,24 @@ pub(in crate::fmi) unsafe fn load<T: Copy>(name: &str, place: *const T) -> Resul
 /// the caller's, and following it would be a crash.
 const MOST_ELEMENTS: u64 = 1 << 32;
 
+#[inline]
 fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> {
-    if n as u64 > MOST_ELEMENTS || n.checked_mul(size_of::<T>()).is_none_or(|bytes| isize::try_from(bytes).is_err()) {
-        return Err(Refusal::from(format!("{n} elements of {name}: expected at most {MOST_ELEMENTS}")));
+    if has_possible_size::<T>(n) && !array.is_null() && array.is_aligned() {
+        return Ok(());
     }
-    if array.is_null() || !array.is_aligned() {
-        return Err(Refusal::from(format!("{name} = {array:?}: expected {n} elements")));
-    }
-    Ok(())
+    Err(array_refusal(name, array, n))
+}
+
+fn has_possible_size<T>(n: usize) -> bool {
+    n as u64 <= MOST_ELEMENTS && n.checked_mul(size_of::<T>()).is_some_and(|bytes| isize::try_from(bytes).is_ok())
+}
+
+#[cold]
+fn array_refusal<T>(name: &str, array: *const T, n: usize) -> Refusal {
+    Refusal::from(match has_possible_size::<T>(n) {
+        false => format!("{n} elements of {name}: expected at most {MOST_ELEMENTS}"),
+        true => format!("{name} = {array:?}: expected {n} elements"),
+    })
 }
 
 /// A string of the caller's, verbatim.
@@ -126,8 +136,14 @@ pub(in crate::fmi) fn boolean(version: FmiVersion, name: &str, value: impl Into<
 }
 
 /// Whether an array has as many elements as the call has things to fill or to take them.
+#[inline]
 pub(in crate::fmi) fn check_length(name: &str, n: usize, expected: usize) -> Result<(), Refusal> {
-    if n == expected { Ok(()) } else { Err(Refusal::from(format!("{name} = {n}: expected {expected}"))) }
+    if n == expected { Ok(()) } else { Err(length_refusal(name, n, expected)) }
+}
+
+#[cold]
+fn length_refusal(name: &str, n: usize, expected: usize) -> Refusal {
+    Refusal::from(format!("{name} = {n}: expected {expected}"))
 }
 
 /// A place for one value that has been looked at before anything happens.

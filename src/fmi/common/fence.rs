@@ -119,11 +119,10 @@ unsafe fn fenced<T: Into<Status>>(
             return Status::Error as c_int;
         };
         let status = run(instance, function, body);
-        let messages = instance.slave.take_messages();
-        if messages.is_empty() {
+        if !instance.slave.has_messages() {
             return status as c_int;
         }
-        (status, messages, instance.logger.clone())
+        (status, instance.slave.take_messages(), instance.logger.clone())
     };
     logger.send(&messages);
     status as c_int
