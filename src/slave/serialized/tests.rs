@@ -273,7 +273,7 @@ struct StoreyBytes<'b> {
 impl StoreyBytes<'_> {
     fn find(body: &[u8]) -> StoreyBytes<'_> {
         let state = state_text(body);
-        let storey = state.split("Storey { ").nth(1).unwrap();
+        let storey = state.split("ElementState { ").nth(1).unwrap();
         let number = |name: &str| {
             let rest = storey.split(&format!("{name}: ")).nth(1).unwrap();
             rest.split([',', ' ']).next().unwrap().parse::<f64>().unwrap()
