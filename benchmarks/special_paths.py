@@ -47,7 +47,6 @@ PATHS = {
     "at_once": "a pair's own force without a detour by the motion (`taylor/pair_forces.rs`)",
     "floors": "floors instead of modes where these are many (`structure/floors.rs`)",
     "oscillators": "coupled damping as oscillators in flights (`structure/complex_modes.rs`)",
-    "fast_flight": "many segments in one loop (`advance/fast_flight.rs`)",
     "dismissal": "for how long pairs cannot meet (`flight/broad_phase.rs`)",
     "certificate": "no entry, shown by both ends of a flight (`bounds/certificate.rs`)",
     "envelopes": "no entry, shown by amplitudes (`bounds/oscillation.rs`)",
@@ -63,7 +62,6 @@ TOGETHER = [
     ("onset", "time_map"),
     ("windows", "onset", "time_map"),
     ("few_modes", "at_once"),
-    ("fast_flight", "dismissal"),
     ("certificate", "envelopes", "short_flight"),
     ("truncation", "settled"),
 ]
@@ -92,7 +90,7 @@ def main():
         switches = [tuple(path.split("+")) for path in options.path]
     if unknown := {path for paths in switches for path in paths} - PATHS.keys():
         parser.error(f"unknown: {', '.join(sorted(unknown))}")
-    switches, uses = ([("fast_flight",)], users()[:2]) if options.quick else (switches, users())
+    switches, uses = ([("dismissal",)], users()[:2]) if options.quick else (switches, users())
     WORK.mkdir(parents=True, exist_ok=True)
     if options.page:
         measured = {paths: kept(paths) for paths in switches if known_file(paths).exists()}

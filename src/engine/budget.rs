@@ -29,27 +29,19 @@ pub(super) struct Progress {
     pub impacts_before: u64,
     /// Number of consecutive steps of length 0.
     pub stalled: u32,
-    /// Limit on its work, in flights.
+    /// Limit on the work of the run up to its end, in flights.
     pub most: u64,
 }
 
+impl Counters {
+    /// Work so far, in flights.
+    pub(super) fn work(&self) -> u64 {
+        let with_series = self.contact_steps() + self.yielding_steps();
+        20 * with_series + 10 * self.narrow_phase_pieces + 6 * self.energy_steps + self.flight_steps()
+    }
+}
+
 impl Progress {
-    /// Work of the communication step so far, in flights.
-    pub(super) fn work(&self, counters: &Counters) -> u64 {
-        let before = &self.before;
-        let series = |of: &Counters| of.contact_steps() + of.yielding_steps();
-        let with_series = series(counters) - series(before);
-        let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
-        let flown = counters.flight_steps() - before.flight_steps();
-        let accounted = counters.energy_steps - before.energy_steps;
-        20 * with_series + 10 * looked + 6 * accounted + flown
-    }
-
-    /// Number of flights that may be taken before the work is looked at again.
-    pub(super) fn flights_left(&self, counters: &Counters) -> u64 {
-        self.most.saturating_sub(self.work(counters))
-    }
-
     /// Notes whether a step has a length above 0.
     pub(super) fn note(&mut self, takes_time: bool) {
         self.stalled = if takes_time { 0 } else { self.stalled + 1 };

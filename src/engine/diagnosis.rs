@@ -4,7 +4,6 @@
 use crate::contact::LawKey;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::kinds::Kind;
 use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights};
 use crate::engine::error::{EngineError, GivenUp};
 use crate::engine::excitation::record::GroundMotion;
@@ -21,7 +20,7 @@ impl Model {
             base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
         let yielded: f64 = base.elements.iter().map(|element| element.cumulative.value).sum();
         let account = base.energy.map_or(0.0, |account| account.largest);
-        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + yielded + account).is_finite() {
+        if (sum_of_motion(base) + contacts + yielded + account).is_finite() {
             return Ok(());
         }
         Err(self.overflow(base))
@@ -64,17 +63,16 @@ impl Model {
         EngineError::TooManyIntervals { from, until, segments, most }
     }
 
-    /// The work of a communication step at its beginning, after fast flight over `flown` segments.
-    pub(in crate::engine) fn progress(&self, state: &State, flown: u64) -> Progress {
+    /// The work of a communication step at its beginning.
+    pub(in crate::engine) fn progress(&self, state: &State) -> Progress {
         let State { time, counters, base, .. } = state;
-        let mut before = *counters;
-        before.taken[Kind::FlownAtOnce as usize] = counters.taken(Kind::FlownAtOnce).saturating_sub(flown);
-        Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most: self.most_flights as u64 }
+        let most = counters.work() + self.most_flights as u64;
+        Progress { start: *time, before: *counters, impacts_before: base.impacts, stalled: 0, most }
     }
 
     /// Refuses to go on beyond the limit on work, or with numbers that are not finite.
     pub(in crate::engine) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
-        if progress.work(&state.counters) > progress.most {
+        if state.counters.work() > progress.most {
             return Err(EngineError::TooMuchWork(self.give_up(state, progress)));
         }
         if progress.stalled > MOST_STEPS_AT_ONCE {
@@ -188,12 +186,12 @@ impl Model {
     }
 }
 
-/// Sum of the components of a modal vector.
-fn lanes_sum(modal: &[f64]) -> f64 {
+/// Sum of all displacements and velocities.
+fn sum_of_motion(Base { q, v, .. }: &Base) -> f64 {
     let mut sum = [0.0; LANES];
-    for modal in modal.as_chunks::<LANES>().0 {
+    for (q, v) in q.as_chunks::<LANES>().0.iter().zip(v.as_chunks::<LANES>().0) {
         for i in 0..LANES {
-            sum[i] += modal[i];
+            sum[i] += q[i] + v[i];
         }
     }
     sum.iter().sum()

@@ -15,7 +15,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, gauss, graded};
-use crate::structure::{Motion, MotionMut, MotionSeries, exact_order, fly_in_one_series};
+use crate::structure::{MotionMut, MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
@@ -37,8 +37,6 @@ pub(super) enum StepKind {
     /// No step has been planned.
     NotPlanned,
     Flight,
-    /// A flight over a whole segment for which every pair has been cleared; its end has not been worked out yet.
-    Deferred,
     Taylor,
     /// The first step after an entry under a power law: a double power series.
     Onset,
@@ -50,7 +48,7 @@ impl StepKind {
     /// What holds the solution of a planned step of that kind.
     pub(super) fn of(kind: Kind) -> StepKind {
         match kind {
-            Kind::FlownAtOnce | Kind::Cleared | Kind::ByEnds | Kind::ByAmplitudes | Kind::Searched => StepKind::Flight,
+            Kind::Cleared | Kind::ByEnds | Kind::ByAmplitudes | Kind::Searched => StepKind::Flight,
             Kind::AtOnce | Kind::Exact | Kind::Series | Kind::Mapped => StepKind::Taylor,
             Kind::Onset => StepKind::Onset,
             Kind::Window => StepKind::Window,
@@ -83,7 +81,7 @@ impl Step {
 
     /// Whether the planned step is a flight.
     pub(super) fn is_flight(&self) -> bool {
-        matches!(self.kind, StepKind::Flight | StepKind::Deferred)
+        self.kind == StepKind::Flight
     }
 
     /// Whether the planned step is one in contact.
@@ -94,7 +92,7 @@ impl Step {
     /// The solution of the step; for a step that has not been planned, a flight.
     pub(super) fn dense(&self) -> Dense<'_> {
         match self.kind {
-            StepKind::NotPlanned | StepKind::Flight | StepKind::Deferred => Dense::Flight,
+            StepKind::NotPlanned | StepKind::Flight => Dense::Flight,
             StepKind::Taylor => Dense::Taylor(&self.taylor),
             StepKind::Onset => Dense::Onset(&self.onset),
             StepKind::Window => Dense::Window(&self.window, &self.taylor.series),
@@ -114,7 +112,7 @@ impl Step {
             _ if elapsed == 0.0 => MotionMut { q, v }.copy_from(base.motion()),
             Dense::Flight => {
                 system.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(system, base, elapsed, work, MotionMut { q, v }) {
+                if !self.fly_back(system, elapsed, work, MotionMut { q, v }) {
                     system.fly(base, elapsed, work, MotionMut { q, v });
                 }
             }
@@ -178,22 +176,14 @@ impl Step {
     /// Evaluates a flight backwards from its planned end, under the load in `work`, if less than `NEARLY_OVER` of it is
     /// left; returns whether it did. Masters whose time differs from that of a sample by rounding need this all the
     /// time, and it takes few terms.
-    fn fly_back(
-        &self,
-        system: &System,
-        base: &Base,
-        elapsed: f64,
-        work: &mut Buffers,
-        MotionMut { q, v }: MotionMut,
-    ) -> bool {
+    fn fly_back(&self, system: &System, elapsed: f64, work: &mut Buffers, MotionMut { q, v }: MotionMut) -> bool {
         // Small enough that no series converges badly and that the growth by damping backwards in time is below
         // rounding.
         const NEARLY_OVER: f64 = 1e-6;
-        let length = match self.kind {
-            StepKind::Flight => self.planned.length,
-            StepKind::Deferred => base.segment.length,
-            _ => return false,
-        };
+        if !self.is_flight() {
+            return false;
+        }
+        let length = self.planned.length;
         let left = length - elapsed;
         let flying = system.structure.in_flight();
         let angle = flying.fastest * left;
@@ -201,12 +191,7 @@ impl Step {
             return false;
         }
         let Some(order) = exact_order(angle) else { return false };
-        let end = if self.kind == StepKind::Deferred {
-            system.fly_in(base, length, work);
-            Motion { q: &work.q, v: &work.v }
-        } else {
-            self.planned.motion()
-        };
+        let end = self.planned.motion();
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }

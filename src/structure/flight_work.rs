@@ -171,32 +171,38 @@ impl FlightWork {
     }
 
     /// Over one flight, in bodies in which it couples none.
-    #[inline(always)]
-    pub fn over(&self, (q, v): (&[Lane], &[Lane]), ground: LinearGround) -> FlightEnergy {
-        let LinearGround { acceleration: a, slope: s } = ground;
-        let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];
-        for ((mode, q), v) in self.modes.iter().zip(q).zip(v) {
-            let ModeForms { viscous: [qq, qv, vv], viscous_mixed: [qa, qs, va, vs], input: [aq, av, sq, sv], omega2 } =
-                mode;
-            for i in 0..LANES {
-                let (q, v) = (q[i], v[i]);
-                held[i] += aq[i] * q + av[i] * v;
-                rising[i] += sq[i] * q + sv[i] * v;
-                let of_q = qq[i] * q + qv[i] * v + (qa[i] * a + qs[i] * s);
-                let of_v = vv[i] * v + (va[i] * a + vs[i] * s);
-                viscous[i] += q * of_q + v * of_v;
-                kinetic[i] += v * v;
-                strain[i] += omega2[i] * q * q;
-            }
+    #[inline]
+    pub fn over(&self, motion: (&[Lane], &[Lane]), ground: LinearGround) -> FlightEnergy {
+        over_modes(self, motion, ground)
+    }
+}
+
+/// See [`FlightWork::over`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn over_modes(work: &FlightWork, (q, v): (&[Lane], &[Lane]), ground: LinearGround) -> FlightEnergy {
+    let LinearGround { acceleration: a, slope: s } = ground;
+    let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];
+    for ((mode, q), v) in work.modes.iter().zip(q).zip(v) {
+        let ModeForms { viscous: [qq, qv, vv], viscous_mixed: [qa, qs, va, vs], input: [aq, av, sq, sv], omega2 } =
+            mode;
+        for i in 0..LANES {
+            let (q, v) = (q[i], v[i]);
+            held[i] += aq[i] * q + av[i] * v;
+            rising[i] += sq[i] * q + sv[i] * v;
+            let of_q = qq[i] * q + qv[i] * v + (qa[i] * a + qs[i] * s);
+            let of_v = vv[i] * v + (va[i] * a + vs[i] * s);
+            viscous[i] += q * of_q + v * of_v;
+            kinetic[i] += v * v;
+            strain[i] += omega2[i] * q * q;
         }
-        let [held, rising, viscous, kinetic, strain] = [held, rising, viscous, kinetic, strain].map(from_left_to_right);
-        let [of_input, of_viscous] = self.ground.map(|[aa, both, ss]| a * (aa * a + both * s) + ss * s * s);
-        FlightEnergy {
-            input: a * held + s * rising + of_input,
-            viscous: viscous + of_viscous,
-            kinetic: 0.5 * kinetic,
-            strain: 0.5 * strain,
-        }
+    }
+    let [held, rising, viscous, kinetic, strain] = [held, rising, viscous, kinetic, strain].map(from_left_to_right);
+    let [of_input, of_viscous] = work.ground.map(|[aa, both, ss]| a * (aa * a + both * s) + ss * s * s);
+    FlightEnergy {
+        input: a * held + s * rising + of_input,
+        viscous: viscous + of_viscous,
+        kinetic: 0.5 * kinetic,
+        strain: 0.5 * strain,
     }
 }
 

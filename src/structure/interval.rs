@@ -58,11 +58,6 @@ impl Interval {
         }
     }
 
-    /// The increments of all modes, where they are so many blocks of them and damping couples none.
-    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeIncrements; WIDTH]> {
-        self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
-    }
-
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
     /// no modes.
     pub fn fly_uncoupled(&self, motion: Motion, loads: LinearLoad, end: MotionMut) {
@@ -110,31 +105,29 @@ impl Interval {
         scratch.y = grown;
     }
 
-    /// The same under the ground's acceleration and its slope alone, where damping couples no modes. Returns whether the
-    /// end is finite.
-    #[inline(always)]
-    pub fn fly_on_ground(
-        &self,
-        Motion { q, v }: Motion,
-        (participation, ground): (&[f64], LinearGround),
-        MotionMut { q: end_q, v: end_v }: MotionMut,
-    ) -> bool {
-        let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
-        let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-        let width = self.modes.len();
-        // Equal lengths: no bounds checks below.
-        let (modes, participation) = (&self.modes[..width], &participation[..width]);
-        let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
-        let mut sum = [0.0; LANES];
-        for c in 0..width {
-            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], ground);
-            for i in 0..LANES {
-                // Finite only if all of its terms are.
-                sum[i] += q[i] + v[i];
-            }
-            (q1[c], v1[c]) = (q, v);
-        }
-        sum.iter().sum::<f64>().is_finite()
+    /// The same under the ground's acceleration and its slope alone, where damping couples no modes.
+    #[inline]
+    pub fn fly_on_ground(&self, motion: Motion, pushed: (&[f64], LinearGround), end: MotionMut) {
+        fly_modes_on_ground(&self.modes, motion, pushed, end);
+    }
+}
+
+/// See [`Interval::fly_on_ground`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_modes_on_ground(
+    modes: &[ModeIncrements],
+    Motion { q, v }: Motion,
+    (participation, ground): (&[f64], LinearGround),
+    MotionMut { q: end_q, v: end_v }: MotionMut,
+) {
+    let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
+    let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+    // Equal lengths: no bounds checks below.
+    let width = modes.len();
+    let (participation, q0, v0) = (&participation[..width], &q0[..width], &v0[..width]);
+    let (q1, v1) = (&mut q1[..width], &mut v1[..width]);
+    for c in 0..width {
+        (q1[c], v1[c]) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], ground);
     }
 }
 

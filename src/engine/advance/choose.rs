@@ -19,18 +19,21 @@ const TRIED: [Kind; 3] = [Kind::Window, Kind::Onset, Kind::Exact];
 impl Model {
     /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
     /// already.
+    #[inline]
     pub(in crate::engine) fn plan(&self, state: &mut State, limit: f64) {
-        match state.step.kind {
-            StepKind::NotPlanned => {}
-            StepKind::Deferred => self.forget_deferred(state),
-            _ => return,
+        if state.step.kind == StepKind::NotPlanned {
+            self.plan_next(state, limit);
         }
+    }
+
+    fn plan_next(&self, state: &mut State, limit: f64) {
         let State { base, step, inputs, counters, work, .. } = state;
-        if base.is_forced() {
+        let is_forced = base.is_forced();
+        if is_forced {
             self.peaks().leave_flight(base, work.for_log());
         }
         let mut at = At { base, inputs, counters };
-        let kind = match at.base.is_forced() {
+        let kind = match is_forced {
             true => self.plan_forced(&mut at, step, work, limit),
             false => self.plan_flight(&mut at, step, work, limit),
         };
@@ -40,6 +43,9 @@ impl Model {
 
     /// Apart: the exact motion, until the limit or the first entry.
     fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> Kind {
+        if self.flight.plan_cleared(&self.system, at, &mut step.planned, &mut work.buffers.node_v) {
+            return Kind::Cleared;
+        }
         let whole = limit - at.base.elapsed;
         if whole > self.system.longest_pieces() {
             self.system.settle(at.base, work.for_energy());

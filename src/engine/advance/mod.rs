@@ -2,7 +2,6 @@
 
 pub mod choose;
 pub mod events;
-pub mod fast_flight;
 pub mod stops;
 
 use crate::engine::base::Base;
@@ -43,6 +42,7 @@ impl Model {
     /// Too much work for one communication step, steps shorter than the time can resolve, or numbers beyond double
     /// precision, each with what to change in the scene. The state then still has the time that it came with, and its
     /// motion is what had been reached: it can be read, and restored from what was saved before.
+    #[inline]
     pub fn advance(
         &self,
         state: &mut State,
@@ -71,10 +71,7 @@ impl Model {
             self.begin_step(state, until);
         }
         self.check_segments(state, until)?;
-        let fast = self.run_fast(state, until, self.most_flights as u64);
-        if !fast.has_arrived {
-            self.go_on(state, until, (fast.flown, stops), on_episode)?;
-        }
+        self.go_on(state, until, stops, on_episode)?;
         if !state.has_event() {
             state.time = if state.base.collapsed.is_some() { state.base.time().min(until) } else { until };
         }
@@ -96,23 +93,28 @@ impl Model {
     }
 
     /// The collapse that has ended the run of a state, if one has.
+    #[inline]
     pub fn collapse(&self, state: &State) -> Option<Collapse> {
-        match self.system.elements[state.base.collapsed?].place {
-            ElementOf::Storey(side, storey) => Some(Collapse { side, storey, time: state.time }),
+        state.base.collapsed.and_then(|element| self.collapse_of(element, state.time))
+    }
+
+    #[cold]
+    fn collapse_of(&self, element: usize, time: f64) -> Option<Collapse> {
+        match self.system.elements[element].place {
+            ElementOf::Storey(side, storey) => Some(Collapse { side, storey, time }),
             ElementOf::Link(_) => None,
         }
     }
 
-    /// Advances step by step from the end of a fast flight over `flown` segments, up to the next event if it `stops` there.
-    #[inline(never)]
+    /// Advances step by step, up to the next event if it `stops` there.
     fn go_on(
         &self,
         state: &mut State,
         until: f64,
-        (flown, stops): (u64, bool),
+        stops: bool,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
-        let mut progress = self.progress(state, flown);
+        let mut progress = self.progress(state);
         loop {
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
@@ -132,13 +134,6 @@ impl Model {
                 break;
             }
             if self.system.is_driven() && state.base.elapsed >= limit {
-                break;
-            }
-            let fast = self.run_fast(state, until, progress.flights_left(&state.counters));
-            if fast.flown > 0 {
-                progress.note(true);
-            }
-            if fast.has_arrived {
                 break;
             }
         }
@@ -170,6 +165,7 @@ impl Model {
     }
 
     /// The latest end of a step, s since the start of the segment.
+    #[inline]
     pub(in crate::engine) fn limit(&self, segment: &Segment, until: f64) -> f64 {
         if self.system.is_driven() && self.ends_after(segment, segment.length, until) {
             return segment.length.min(until - segment.start);
@@ -207,6 +203,12 @@ impl Model {
         std::mem::swap(&mut base.v, &mut planned.v);
         // From here on `base.time()` is the end of the step.
         base.elapsed = end;
+        if planned.is_cleared {
+            // Nothing else has changed: no contact is closed or at its surface, and no element yields.
+            base.leave_cleared_flight();
+            step.kind = StepKind::NotPlanned;
+            return;
+        }
         // Plastic drifts move the position of rest, and with it `q` and the gaps at rest: before anything is measured
         // from them.
         self.move_storeys(base, step);
@@ -280,9 +282,7 @@ impl Model {
         if !planned.ends.is_empty() {
             base.clearance.move_on(1);
             for (p, (contact, end)) in base.contacts.iter_mut().zip(&planned.ends).enumerate() {
-                contact.at_surface = false;
-                contact.let_go = false;
-                contact.tracked = false;
+                contact.leave_surface();
                 if let Some((penetration, rate)) = *end {
                     base.clearance.set_known(p);
                     (contact.penetration, contact.rate) = (penetration, rate);

@@ -37,10 +37,24 @@ impl Model {
     ///
     /// # Errors
     /// Too many events at one instant, or numbers beyond double precision.
+    #[inline]
     pub fn handle_event(&self, state: &mut State, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), EngineError> {
-        let Stop::Waiting { mut end, goal } = state.stop else { return Ok(()) };
+        match state.stop {
+            Stop::Waiting { end, goal } => self.handle_waiting(state, (end, goal), on_episode),
+            Stop::No | Stop::Handled { .. } => Ok(()),
+        }
+    }
+
+    /// Takes the step that has led to the event that waits, at `end` on the way to the time `goal`.
+    #[cold]
+    fn handle_waiting(
+        &self,
+        state: &mut State,
+        (mut end, goal): (f64, f64),
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
         state.stop = Stop::Handled { goal };
-        let mut progress = self.progress(state, 0);
+        let mut progress = self.progress(state);
         loop {
             self.take_planned(state, end, &mut progress, on_episode)?;
             if state.base.collapsed.is_some() || !self.begin_next_segment(state) {

@@ -50,11 +50,6 @@ impl Clearance {
         self.pairs[p] > segment
     }
 
-    /// The first segment in which any pair may meet, as noted.
-    pub(crate) fn due(&self) -> u64 {
-        self.due
-    }
-
     /// The first segment in which another broad phase is worth its cost.
     pub(crate) fn next_look(&self) -> u64 {
         self.next_look

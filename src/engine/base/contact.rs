@@ -99,6 +99,7 @@ pub(crate) struct Contact {
 
 impl Contact {
     /// Whether the floors touch: engaged, slack or held.
+    #[inline]
     pub(crate) fn in_contact(&self) -> bool {
         self.phase != ContactPhase::Apart
     }
@@ -188,6 +189,14 @@ impl Contact {
     pub(crate) fn pass_on(&mut self, impulse: f64) {
         self.rate = 0.0;
         self.book(Passage { impulse, ..Passage::default() });
+    }
+
+    /// Forgets what holds at the start of a flight only.
+    #[inline]
+    pub(crate) fn leave_surface(&mut self) {
+        self.at_surface = false;
+        self.let_go = false;
+        self.tracked = false;
     }
 
     /// Penetration at the start of a flight, m: exactly 0 just after a release, never above 0.

@@ -3,8 +3,6 @@
 /// A kind of step; of a flight, what showed that nothing happens in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Apart, over a whole segment of the record, in the loop over many of them: bounds had cleared all pairs and storeys.
-    FlownAtOnce,
     /// Apart, and bounds for segments ahead had cleared all pairs and storeys, or there are none.
     Cleared,
     /// Apart, shown by both ends.
@@ -29,8 +27,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Kind; 11] = [
-        Kind::FlownAtOnce,
+    pub const ALL: [Kind; 10] = [
         Kind::Cleared,
         Kind::ByEnds,
         Kind::ByAmplitudes,

@@ -108,6 +108,13 @@ impl Base {
         self.contacts.iter().filter(is_pressed).count() as u64
     }
 
+    /// Notes that a flight is over for which bounds had cleared all pairs and elements.
+    pub(super) fn leave_cleared_flight(&mut self) {
+        self.clearance.move_on(1);
+        self.contacts.iter_mut().for_each(Contact::leave_surface);
+        self.elements.iter_mut().for_each(|element| element.turned = None);
+    }
+
     /// Adds the work of the dashpot of each link, J.
     pub(super) fn add_work_of_dashpots(&mut self, done: &[f64]) {
         self.dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
@@ -139,7 +146,7 @@ impl Base {
     /// Raises the peak forces of contacts whose force depends on their rate to what they are at the base.
     pub(super) fn raise_peak_forces(&mut self) {
         let time = self.time();
-        for contact in self.contacts.iter_mut().filter(|contact| contact.branch().is_damped()) {
+        for contact in self.contacts.iter_mut().filter(|contact| contact.in_contact() && contact.branch().is_damped()) {
             contact.raise_peak(contact.present_force(), time);
         }
     }

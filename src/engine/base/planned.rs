@@ -47,6 +47,8 @@ pub(crate) struct Planned {
     pub slope: Vec<f64>,
     /// Penetration and rate at the end, of each contact that is tracked.
     pub tracked: Tracked,
+    /// A flight for which bounds have cleared all pairs and elements: no penetration is worked out at its end.
+    pub is_cleared: bool,
     /// After a flight without an entry: penetration and rate at the end, of each contact for which they were needed.
     /// Empty otherwise.
     pub ends: Tracked,
@@ -65,6 +67,7 @@ impl Planned {
             load: vec![0.0; lanes],
             slope: vec![0.0; lanes],
             tracked: vec![None; pairs],
+            is_cleared: false,
             ends: Vec::with_capacity(pairs),
         }
     }
@@ -72,7 +75,15 @@ impl Planned {
     /// Plans a step of a length, s, with forces: no pair has been tracked over it so far.
     pub(crate) fn plan(&mut self, length: f64, event: Option<Event>, reaches_limit: bool, next_length: Option<f64>) {
         (self.length, self.event, self.reaches_limit, self.next_length) = (length, event, reaches_limit, next_length);
+        self.is_cleared = false;
         self.tracked.fill(None);
+        self.ends.clear();
+    }
+
+    /// Plans a flight of a length, s, up to the limit, for which bounds have cleared all pairs and elements.
+    pub(crate) fn plan_cleared(&mut self, length: f64) {
+        (self.length, self.event, self.reaches_limit, self.next_length) = (length, None, true, None);
+        self.is_cleared = true;
         self.ends.clear();
     }
 

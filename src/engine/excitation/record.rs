@@ -3,8 +3,7 @@
 use crate::engine::excitation::segment::{RecordPlace, Segment};
 use crate::numerics::sum::Sum;
 use crate::record::Record;
-use crate::structure::{FlightWork, Interval, LinearGround, Structure};
-use std::ops::Range;
+use crate::structure::{FlightWork, Interval, Structure};
 
 /// Largest number of different segment lengths, from the shortest on, for which the exact flight is prepared.
 const MOST_PREPARED: usize = 8;
@@ -106,17 +105,6 @@ impl GroundMotion {
     /// Whether a number is that of a segment of the record.
     pub(crate) fn is_in_record(&self, number: u64) -> bool {
         number < self.lengths.len() as u64
-    }
-
-    /// End, length and acceleration of the segments of the record with these numbers.
-    #[inline(always)]
-    pub(crate) fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, LinearGround)> {
-        let samples = self.lengths.len() as u64;
-        let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
-        let ends = self.accelerations[first..].windows(2);
-        let segments = self.times[first + 1..].iter().zip(&self.lengths[first..end]).zip(ends);
-        let ground = |of: &[f64], length| LinearGround { acceleration: of[0], slope: slope([of[0], of[1]], length) };
-        segments.map(move |((end, length), ends)| (*end, *length, ground(ends, *length)))
     }
 
     /// The exact flight over a whole segment, where its length has been prepared.

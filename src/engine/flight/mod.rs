@@ -3,7 +3,6 @@
 
 pub mod accounted;
 pub mod broad_phase;
-pub mod fast_account;
 pub mod log;
 pub mod propagate;
 pub mod search;
@@ -35,6 +34,29 @@ impl Flight {
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
+    /// Plans the flight over the whole segment of the record at whose start the base stands, if bounds clear all pairs and
+    /// elements for it: then its end is all that has to be worked out.
+    #[inline]
+    pub fn plan_cleared(&self, system: &System, at: &mut At, planned: &mut Planned, amplitude: &mut [f64]) -> bool {
+        let At { base, counters, .. } = at;
+        let flying = system.structure.in_flight();
+        let Some((ground, segment)) = system.watched_segment(base) else { return false };
+        let is_prepared = base.elapsed == 0.0
+            && system.is_in_flight(base)
+            && flying.is_classical()
+            && system.is_accounted_at_once(ground, base);
+        let is_cleared = is_prepared
+            && (base.clearance.are_all_free(segment)
+                || self.broad_phase.dismiss(system, ground, base, segment, counters, amplitude));
+        if !is_cleared {
+            return false;
+        }
+        let Some(interval) = ground.prepared(&base.segment) else { return false };
+        planned.plan_cleared(interval.length);
+        interval.fly_on_ground(base.motion(), (&flying.participation, base.ground()), planned.motion_mut());
+        true
+    }
+
     /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event; returns
     /// what has shown that there is none, or found it.
     pub fn plan(
@@ -56,7 +78,7 @@ impl Flight {
         if let Some((ground, segment)) = watched
             && self.broad_phase.dismiss(system, ground, at.base, segment, at.counters, &mut work.node_v)
         {
-            planned.ends.resize(system.pairs.len(), None);
+            planned.is_cleared = true;
             return Kind::Cleared;
         }
         if self.both_ends_hold(system, at, planned, (look, work), segment) {

@@ -16,10 +16,9 @@ pub struct Buffers {
     pub slope: Vec<f64>,
     /// Rates of the external floor forces, N/s (on modes, per kg^1/2); empty where all are held constant.
     pub force_slope: Vec<f64>,
-    /// Displacements or velocities while they are converted to other coordinates, or at the start of a segment in fast
-    /// flight. In `rigid`: accelerations.
+    /// Displacements or velocities while they are converted to other coordinates. In `rigid`: accelerations.
     pub q: Vec<f64>,
-    /// Velocities at the start of a segment in fast flight. In the energy account: damping forces per unit of mass.
+    /// Velocities. In the energy account: damping forces per unit of mass.
     pub v: Vec<f64>,
     pub scratch: Scratch,
     /// Power series of a piece of a flight.
