@@ -43,8 +43,6 @@ PATHS = {
     "windows": "a whole contact in one or two collocation windows (`engine/window/`)",
     "onset": "the double series after an entry under a power law (`engine/onset/`)",
     "time_map": "series in a stretched time near entries and releases (`engine/taylor/time_map.rs`)",
-    "few_modes": "up to 16 modes in registers, all pairs abreast (`pairs/jacobian.rs`)",
-    "at_once": "a pair's own force without a detour by the motion (`taylor/pair_forces.rs`)",
     "floors": "floors instead of modes where these are many (`structure/floors.rs`)",
     "oscillators": "coupled damping as oscillators in flights (`structure/complex_modes.rs`)",
     "dismissal": "for how long pairs cannot meet (`flight/broad_phase.rs`)",
@@ -61,7 +59,6 @@ PATHS = {
 TOGETHER = [
     ("onset", "time_map"),
     ("windows", "onset", "time_map"),
-    ("few_modes", "at_once"),
     ("certificate", "envelopes", "short_flight"),
     ("truncation", "settled"),
 ]

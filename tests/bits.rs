@@ -61,20 +61,20 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
     let damped = || laws.hertz_damped("exact");
     let cases = [
         (case(laws.stereomechanical(), RATIO), 0xdb4f_62fb_f13e_9f45),
-        (case(laws.linear(), RATIO), 0xfaf7_983d_e873_de84),
-        (case(laws.kelvin_voigt(), RAYLEIGH), 0xa8e0_aadf_4029_f314),
-        (case(laws.kelvin_voigt_no_tension(), RATIO), 0xfdae_8c4c_bc17_46a3),
+        (case(laws.linear(), RATIO), 0xb1cf_f3e5_4115_d2ce),
+        (case(laws.kelvin_voigt(), RAYLEIGH), 0x9c75_3770_624b_4f32),
+        (case(laws.kelvin_voigt_no_tension(), RATIO), 0x54ab_60ff_415c_e50f),
         (case(laws.hertz(), RATIO), 0x492f_2c78_d2d8_ffa0),
-        (case(laws.hertz_of_another_exponent(), RATIO), 0x7a8f_54b2_38d5_9d09),
-        (case(laws.jankowski(), RATIO), 0x8fac_25eb_4e39_11f0),
+        (case(laws.hertz_of_another_exponent(), RATIO), 0x76e5_89dd_35df_966b),
+        (case(laws.jankowski(), RATIO), 0x76ac_f045_5639_be63),
         (case(damped(), MATRIX), 0x22f1_2e4a_c588_31f4),
-        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x4541_3c1f_f646_3649),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xd5f3_40db_daa6_82a2),
+        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x4b52_8daf_7db0_05a8),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x5ddb_4ce5_911f_92e6),
         (Case { energy: false, ..case(damped(), RATIO) }, 0xef5e_f3ae_425d_4956),
         (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0xf8de_f7ad_d5c2_5e85),
         (Case { yields: true, ..case(damped(), MATRIX) }, 0x6f35_c2f8_75fc_5e0e),
-        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x6b12_30f9_5b73_511c),
-        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x900d_7736_9e88_5711),
+        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x8806_2262_6d70_8d94),
+        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0xc586_81a1_fc51_b20e),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

@@ -21,13 +21,6 @@ pub(crate) trait ContactJacobian {
     fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         terms.for_each(|(term, out)| *out = self.relative(members, count, term));
     }
-    /// Adds to the accelerations in `term` those by the forces; returns the relative motions from before.
-    #[inline(always)]
-    fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
-        let relative = self.relative(members, count, term);
-        self.apply(members, count, forces, term);
-        relative
-    }
 }
 
 /// The Jacobian where the motion is that of the floors: a row has a 1 and a -1, or the weights of up to three floors.
@@ -65,52 +58,15 @@ impl ContactJacobian for FloorJacobian {
 
     #[inline(always)]
     fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
-        self.relative_and_apply(members, count, forces, term);
-    }
-
-    #[inline(always)]
-    fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
-        let Some(blocks) = members.between else {
-            let relative = self.relative(members, count, term);
-            let term = term.as_flattened_mut();
-            for (floors, force) in members.floors.iter().zip(forces).take(count) {
-                floors.iter().for_each(|floor| term[floor.lane] += floor.push * force);
+        if let Some(blocks) = members.between {
+            for (block, pushes) in blocks.into_iter().zip(&members.pushes) {
+                term[block] = each(|lane| term[block][lane] + pushes[lane] * forces[lane]);
             }
-            return relative;
-        };
-        let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
-        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.pushes);
-        *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
-        *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
-        each(|lane| was_left[lane] - was_right[lane])
-    }
-}
-
-/// The Jacobian on modes where these are few enough for its rows to be stored in the packed pairs.
-pub(crate) struct PackedModalJacobian;
-
-impl ContactJacobian for PackedModalJacobian {
-    #[inline(always)]
-    fn relative(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
-        // All pairs side by side, which needs no sum across lanes.
-        let mut sums = [[0.0; PAIRS]; 2];
-        let (modes, _) = members.by_mode.as_chunks::<LANES>();
-        for (pairs, term) in modes.iter().zip(term) {
-            for (m, (pairs, term)) in pairs.iter().zip(term).enumerate() {
-                sums[m % 2] = each(|i| sums[m % 2][i] + pairs[i] * term);
-            }
+            return;
         }
-        each(|i| sums[0][i] + sums[1][i])
-    }
-
-    fn difference(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
-        lane_by_lane(PAIRS, |lane| structure::difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
-    }
-
-    #[inline(always)]
-    fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
-        for (row, force) in members.rows.iter().zip(forces).take(count) {
-            push_blocks(row, *force, term);
+        let term = term.as_flattened_mut();
+        for (floors, force) in members.floors.iter().zip(forces).take(count) {
+            floors.iter().for_each(|floor| term[floor.lane] += floor.push * force);
         }
     }
 }
@@ -129,6 +85,16 @@ impl ContactJacobian for ModalJacobian<'_> {
     #[inline(always)]
     fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         lane_by_lane(count, |lane| dot_blocks(self.row(members.pairs[lane]), term))
+    }
+
+    #[inline(always)]
+    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
+        // The rows once for all terms.
+        let mut rows = [&[][..]; PAIRS];
+        for (row, pair) in rows.iter_mut().zip(&members.pairs).take(count) {
+            *row = self.row(*pair);
+        }
+        terms.for_each(|(term, out)| *out = lane_by_lane(count, |lane| dot_blocks(rows[lane], term)));
     }
 
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
@@ -155,7 +121,7 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
 
 /// Product of a row with a term: four partial sums, added as (0+2)+(1+3).
 #[inline(always)]
-pub(crate) fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
+fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
     for (row, term) in row.iter().zip(term) {
         for i in 0..LANES {
@@ -169,8 +135,7 @@ pub(crate) fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
 #[inline(always)]
 fn push_blocks(row: &[Lane], force: f64, term: &mut [Lane]) {
     for (term, row) in term.iter_mut().zip(row) {
-        for i in 0..LANES {
-            term[i] -= row[i] * force;
-        }
+        let before = *term;
+        *term = each(|i| before[i] - row[i] * force);
     }
 }

@@ -1,10 +1,10 @@
 //! Packing of pairs into blocks of [`LANES`], which are worked on side by side.
 
 use crate::contact::taylor::{Each, PAIRS};
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::Coordinates;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::row::RowOfFloors;
-use crate::structure::{FEW_BLOCKS, LANES, Lane};
+use crate::structure::LANES;
 
 /// The block, among those of pairs with the same kind of force, to which a pair may belong.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,12 +47,6 @@ pub(crate) struct PackedPairs {
     pub floors: [RowOfFloors; PAIRS],
     /// Accelerations of the first two floors of each row per unit of contact force, 1/kg.
     pub pushes: [Each; 2],
-    /// Minus the relative acceleration of each pair per unit of its own force, 1/kg.
-    pub softness: Each,
-    /// Rows of the modal Jacobian for each pair, where modes are few.
-    pub rows: [[Lane; FEW_BLOCKS]; PAIRS],
-    /// The same rows transposed: mode by mode, for all pairs side by side.
-    pub by_mode: [Each; FEW_BLOCKS * LANES],
 }
 
 impl PackedPairs {
@@ -77,17 +71,11 @@ impl PackedPairs {
     }
 
     /// Enters a pair, by its number and data, into a lane.
-    pub(crate) fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
+    pub(crate) fn set(&mut self, lane: usize, pair: usize, data: &Pair) {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
         self.floors[lane] = data.row.floors;
         (self.pushes[0][lane], self.pushes[1][lane]) = (data.row.floors[0].push, data.row.floors[1].push);
-        self.softness[lane] = data.softness(data);
-        if coordinates == Coordinates::Modes {
-            self.rows[lane] = data.first_blocks;
-            let modes = data.first_blocks.as_flattened();
-            self.by_mode.iter_mut().zip(modes).for_each(|(pairs, of_mode)| pairs[lane] = *of_mode);
-        }
     }
 
     /// Number of lanes up to the last one that holds a pair.
@@ -153,7 +141,7 @@ impl<B: Default> PackedBlocks<B> {
             self.used += 1;
             (b, self.members[b].start(place))
         });
-        self.members[b].set(lane, p, pair, coordinates);
+        self.members[b].set(lane, p, pair);
         self.places[p] = (b, lane);
         (&mut self.blocks[b], b, lane)
     }
@@ -189,11 +177,6 @@ impl<B: Default> PackedBlocks<B> {
         let (block, lane) = self.places[pair];
         (&self.blocks[block], lane)
     }
-}
-
-/// Whether modes are so few that the rows of pairs over them are packed.
-pub(crate) fn has_few_modes(base: &Base) -> bool {
-    !cfg!(without = "few_modes") && base.q.len() <= FEW_BLOCKS * LANES
 }
 
 /// Upper bound on the number of blocks that `pairs` pairs of `kinds` kinds of force fill.

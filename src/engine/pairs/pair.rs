@@ -6,7 +6,7 @@ use crate::engine::base::contact::{Contact, ContactPhase, Episode};
 use crate::engine::pairs::row::{WeightRow, relative};
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::scene::{Scene, Share};
-use crate::structure::{FEW_BLOCKS, LANES, Lane, Motion, Structure};
+use crate::structure::{Motion, Structure};
 
 /// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of both buildings.
 #[derive(Clone, Debug)]
@@ -18,8 +18,6 @@ pub(crate) struct Pair {
     pub law: ImpactLaw,
     /// Reduced mass, kg.
     pub mass: f64,
-    /// The first blocks of the row over the modes: all of it where these are few.
-    pub first_blocks: [Lane; FEW_BLOCKS],
 }
 
 impl Pair {
@@ -27,11 +25,7 @@ impl Pair {
     pub(crate) fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let shares: Vec<Share> = pair.row(scene).collect();
         let row = WeightRow::of(structure, shares.iter().map(|share| (share.side, share.place, share.weight)));
-        let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
-        for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row.modes) {
-            *first = *row;
-        }
-        Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene), first_blocks }
+        Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene) }
     }
 
     /// The force of its law while the guard is positive, but for the part that goes with the approach velocity.

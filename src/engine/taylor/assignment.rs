@@ -37,7 +37,6 @@ impl ClosedPairs {
     /// Enters the closed pairs at their assigned lanes; returns whether the closed pairs are those that were assigned.
     fn start_again(&mut self, base: &Base, scale: f64) -> bool {
         self.at_surface.fill(false);
-        self.waits = false;
         let mut assigned = self.assigned.iter();
         for (p, contact) in closed(base) {
             let force = contact.starting_force();
@@ -46,9 +45,7 @@ impl ClosedPairs {
             }
             let (b, lane) = self.packed.place(p);
             self.packed.block(b).add(lane, &force, scale, contact.penetration, contact.rate * scale);
-            let at_surface = contact.at_surface && contact.rate == 0.0;
-            self.at_surface[b] |= at_surface;
-            self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+            self.at_surface[b] |= contact.at_surface && contact.rate == 0.0;
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
     }
@@ -56,9 +53,5 @@ impl ClosedPairs {
 
 /// The closed pairs, each with its number.
 fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
-    base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
-}
-
-fn is_closed(contact: &Contact) -> bool {
-    contact.in_contact() && !contact.is_held()
+    base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact() && !contact.is_held())
 }

@@ -4,8 +4,7 @@ use crate::contact::Force;
 use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::{Contact, Passage};
-use crate::engine::pairs::packing::{PackedBlocks, PackedPairs};
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::packing::PackedBlocks;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
@@ -21,16 +20,10 @@ pub struct ClosedPairs {
     /// Whether a pair of the block has just entered with a velocity of 0: where its floors move alike, its penetration
     /// is rounding.
     pub at_surface: Vec<bool>,
-    /// For each pair, the earlier pairs that share a floor with it, so that the force of one accelerates the other
-    /// directly.
-    pub neighbours: Vec<Vec<usize>>,
     /// The closed pairs that have been assigned, with their kinds of force.
     pub assigned: Vec<(usize, Kind)>,
     /// The coordinates for which they have been assigned.
     pub coordinates: Coordinates,
-    /// Whether a new power of the penetrations can be worked out only after that of all forces: pairs share a floor, or
-    /// have just entered with a velocity of 0.
-    pub waits: bool,
 }
 
 /// A block at the end of a step.
@@ -42,17 +35,14 @@ pub struct BlockEnd {
 }
 
 impl ClosedPairs {
-    /// Allocates for these pairs.
-    pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
-        let pairs = all.len();
+    /// Allocates for that many pairs.
+    pub fn new(pairs: usize, on_floors: bool) -> ClosedPairs {
         let packed = PackedBlocks::new(pairs, 5, on_floors);
         ClosedPairs {
             readings: vec![BlockReading::default(); packed.most()],
             at_surface: vec![false; packed.most()],
-            neighbours: (0..pairs).map(|p| (0..p).filter(|&q| all[p].softness(&all[q]) != 0.0).collect()).collect(),
             assigned: Vec::with_capacity(pairs),
             coordinates: Coordinates::default(),
-            waits: false,
             packed,
         }
     }
@@ -115,26 +105,17 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters power n of the penetrations, block by block: `values` gets its pairs, the number of lanes that may hold
-    /// pairs, and whether one of them may have just entered with a velocity of 0.
-    pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&PackedPairs, usize, bool) -> Each) {
-        let (blocks, members) = self.packed.all_mut();
-        for ((block, members), at_surface) in blocks.iter_mut().zip(members).zip(&self.at_surface) {
-            let values = values(members, block.count, *at_surface);
-            block.set_penetration(n, values);
-        }
-    }
-
     /// Enters power n of the penetrations, pair by pair: `term` gets its number and whether a pair of its block has
     /// just entered with a velocity of 0.
     pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
-        self.set_blocks(n, |members, _, at_surface| {
+        let (blocks, members) = self.packed.all_mut();
+        for ((block, members), at_surface) in blocks.iter_mut().zip(members).zip(&self.at_surface) {
             let mut values = [0.0; PAIRS];
             for (lane, pair) in members.lanes() {
-                values[lane] = term(pair, at_surface);
+                values[lane] = term(pair, *at_surface);
             }
-            values
-        });
+            block.set_penetration(n, values);
+        }
     }
 
     /// Writes bounds on the magnitudes of the forces up to the x of the powers, N, one per contact.

@@ -1,12 +1,11 @@
 //! Expansion of motion and contact forces into power series in time, power by power together.
 
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
-use crate::engine::pairs::packing::has_few_modes;
+use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::drifts::WithYielding;
-use crate::engine::taylor::pair_forces::with_forces;
+use crate::engine::taylor::pair_forces::ClosedForces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::MAX_ORDER;
 use crate::structure::{difference, dot, flight_order};
@@ -41,29 +40,12 @@ impl System {
         let elements = &self.elements[..];
         match base.coordinates {
             Coordinates::Floors => {
-                with_forces!(closed, FloorJacobian, |pairs| series.expand_floors(
-                    &structure.floors,
-                    order,
-                    loads,
-                    &mut WithYielding { elements, drifts, pairs }
-                ));
+                let pairs = &mut ClosedForces { closed, jacobian: FloorJacobian };
+                series.expand_floors(&structure.floors, order, loads, &mut WithYielding { elements, drifts, pairs });
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
-                if !has_few_modes(base) {
-                    with_forces!(closed, ModalJacobian(&self.pairs), |pairs| series.expand_modes(
-                        structure,
-                        order,
-                        loads,
-                        &mut WithYielding { elements, drifts, pairs }
-                    ));
-                } else {
-                    with_forces!(closed, PackedModalJacobian, |pairs| series.expand_few_modes(
-                        structure,
-                        order,
-                        loads,
-                        &mut WithYielding { elements, drifts, pairs }
-                    ));
-                }
+                let pairs = &mut ClosedForces { closed, jacobian: ModalJacobian(&self.pairs) };
+                series.expand_modes(structure, order, loads, &mut WithYielding { elements, drifts, pairs });
             }
             Coordinates::Modes => {
                 while solution.series.order < order {
@@ -77,7 +59,6 @@ impl System {
     /// did.
     pub fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
         let are_cheap = base.coordinates == Coordinates::Modes
-            && has_few_modes(base)
             && self.structure.is_classical()
             && work.rigid.pairs.is_empty()
             && self.tolerance.linear_order > self.tolerance.order

@@ -3,8 +3,8 @@
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::terms::{Horizon, PenetrationBounds};
-use crate::engine::pairs::jacobian::{ContactJacobian, FloorJacobian, ModalJacobian, PackedModalJacobian};
-use crate::engine::pairs::packing::{PackedBlocks, PackedPairs, has_few_modes};
+use crate::engine::pairs::jacobian::{ContactJacobian, FloorJacobian, ModalJacobian};
+use crate::engine::pairs::packing::{PackedBlocks, PackedPairs};
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::row::relative;
 use crate::numerics::polynomial::{MAX_TERMS, each};
@@ -83,7 +83,6 @@ impl OpenPairs {
         let terms = &mut terms[..(series.order + 1) * apart.len()];
         match base.coordinates {
             Coordinates::Floors => relate(&FloorJacobian, series, (members, apart), terms),
-            Coordinates::Modes if has_few_modes(base) => relate(&PackedModalJacobian, series, (members, apart), terms),
             Coordinates::Modes => relate(&ModalJacobian(pairs), series, (members, apart), terms),
         }
         if series.time_map.is_curved() {

@@ -37,7 +37,7 @@ impl Solution {
     pub fn new(system: &System) -> Solution {
         let on_floors = system.contact_coordinates == Coordinates::Floors;
         Solution {
-            closed: ClosedPairs::new(&system.pairs, on_floors),
+            closed: ClosedPairs::new(system.pairs.len(), on_floors),
             drifts: YieldingDrifts::new(system.elements.len()),
             open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],

@@ -5,7 +5,7 @@ use crate::numerics::polynomial::{COUNT, MAX_TERMS, each};
 use crate::numerics::time_map::TimeMap;
 use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
-use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
+use crate::structure::lanes::{LANES, Lane};
 use crate::structure::motion::{LinearLoad, Motion};
 use std::ops::Range;
 
@@ -82,50 +82,15 @@ impl MotionSeries {
     }
 
     /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one,
-    /// under a load, its slope and the forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in
-    /// registers.
-    pub fn expand_few_modes(
+    /// under a load, its slope and the forces of some pairs.
+    pub fn expand_modes(
         &mut self,
         structure: &Structure,
         order: usize,
         loads: LinearLoad,
         forces: &mut impl PairForces,
     ) {
-        match self.lanes / LANES {
-            1 => expand_blocks::<1, _>(self, structure, order, loads, forces),
-            2 => expand_blocks::<2, _>(self, structure, order, loads, forces),
-            3 => expand_blocks::<3, _>(self, structure, order, loads, forces),
-            _ => expand_blocks::<FEW_BLOCKS, _>(self, structure, order, loads, forces),
-        }
-    }
-
-    /// The same for any number of modes.
-    pub fn expand_modes(
-        &mut self,
-        structure: &Structure,
-        order: usize,
-        LinearLoad { load, slope }: LinearLoad,
-        forces: &mut impl PairForces,
-    ) {
-        let lanes = self.lanes;
-        for n in self.order - 1..order - 1 {
-            let (known, rest) = self.coefficients.split_at_mut((n + 2) * lanes);
-            let (before, last) = known[n * lanes..].split_at(lanes);
-            let next = &mut rest[..lanes];
-            match n {
-                0 => next.copy_from_slice(load),
-                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * self.scale),
-                _ => next.fill(0.0),
-            }
-            let factor = self.scale * self.scale * SECOND_RECIPROCAL[n];
-            let rate = (n + 1) as f64 * (self.scale * SECOND_RECIPROCAL[n]);
-            for m in 0..lanes {
-                let pulled = (factor * structure.omega2[m]) * before[m];
-                next[m] = (factor * next[m] - pulled) - (rate * structure.damping[m]) * last[m];
-            }
-            forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
-        }
-        self.order = order;
+        expand_modes(self, structure, order, loads, forces);
     }
 
     /// Expands from a started series of all floors to `order`, or goes on with an expanded one, under a load, its slope and
@@ -204,37 +169,37 @@ fn expand_single_modes(
     }
 }
 
-/// See [`MotionSeries::expand_few_modes`].
+/// See [`MotionSeries::expand_modes`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn expand_blocks<const WIDTH: usize, F: PairForces>(
+fn expand_modes<F: PairForces>(
     series: &mut MotionSeries,
     structure: &Structure,
     order: usize,
     LinearLoad { load, slope }: LinearLoad,
     forces: &mut F,
 ) {
-    let [damping, omega2, load, slope] =
-        [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
-    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>().0.as_chunks_mut::<WIDTH>();
-    let first = series.order - 1;
-    let (mut before, mut last) = (terms[first], terms[first + 1]);
-    for ((n, reciprocal), term) in SECOND_RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
-        let mut next = match n {
-            0 => load,
-            1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
-            _ => [[0.0; LANES]; WIDTH],
-        };
-        let factor = series.scale * series.scale * reciprocal;
-        let rate = (n + 1) as f64 * (series.scale * reciprocal);
-        for c in 0..WIDTH {
-            for i in 0..LANES {
+    let (width, scale) = (series.lanes / LANES, series.scale);
+    let vectors = [&structure.damping, &structure.omega2, load, slope];
+    let [damping, omega2, load, slope] = vectors.map(|of| &of.as_chunks::<LANES>().0[..width]);
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
+    for n in series.order - 1..order - 1 {
+        let (known, rest) = terms.split_at_mut((n + 2) * width);
+        let (before, last) = known[n * width..].split_at(width);
+        let next = &mut rest[..width];
+        let factor = scale * scale * SECOND_RECIPROCAL[n];
+        let rate = (n + 1) as f64 * (scale * SECOND_RECIPROCAL[n]);
+        for c in 0..width {
+            let load: Lane = match n {
+                0 => load[c],
+                1 => slope[c].map(|slope| slope * scale),
+                _ => [0.0; LANES],
+            };
+            next[c] = each(|i| {
                 let pulled = (factor * omega2[c][i]) * before[c][i];
-                next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
-            }
+                (factor * load[i] - pulled) - (rate * damping[c][i]) * last[c][i]
+            });
         }
-        forces.act(n, factor, &mut next);
-        *term = next;
-        (before, last) = (last, next);
+        forces.act(n, factor, next);
     }
     series.order = order;
 }
@@ -271,11 +236,4 @@ fn expand_floors<F: PairForces>(
         forces.act(n, factor, next);
     }
     series.order = order;
-}
-
-/// The first blocks of a vector that has as many.
-fn first_blocks<const WIDTH: usize>(vector: &[f64]) -> [Lane; WIDTH] {
-    let mut blocks = [[0.0; LANES]; WIDTH];
-    blocks.as_flattened_mut().copy_from_slice(&vector[..WIDTH * LANES]);
-    blocks
 }
