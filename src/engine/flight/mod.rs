@@ -34,8 +34,8 @@ impl Flight {
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
-    /// Plans the flight over the whole segment of the record at whose start the base stands, if bounds clear all pairs and
-    /// elements for it: then its end is all that has to be worked out.
+    /// Plans the flight over the whole segment of the record at whose start the base stands, if bounds clear all pairs
+    /// and elements for it: then its end is all that has to be worked out.
     #[inline]
     pub fn plan_cleared(&self, system: &System, at: &mut At, planned: &mut Planned, amplitude: &mut [f64]) -> bool {
         let At { base, counters, .. } = at;

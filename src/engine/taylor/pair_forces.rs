@@ -5,7 +5,7 @@ use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 
-/// The closed pairs: the new powers of all forces first, then those of the penetrations, which floors that two pairs share move.
+/// The closed pairs: the new powers of all forces first, then those of the penetrations, as pairs may share a floor.
 pub struct ClosedForces<'a, M> {
     pub closed: &'a mut ClosedPairs,
     pub jacobian: M,
