@@ -54,7 +54,6 @@ PATHS = {
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
     "flight_work": "work over a flight as a quadratic form (`structure/flight_work.rs`)",
     "flight_log": "peaks of flights read many at once (`peaks/fold.rs`, `bounds/span.rs`)",
-    "truncation": "peaks of many modes by the slow ones first (`quantities/truncated.rs`)",
     "settled": "modes whose swing is below rounding (`peaks/settled.rs`)",
 }
 
@@ -65,7 +64,6 @@ TOGETHER = [
     ("few_modes", "at_once"),
     ("fast_flight", "dismissal"),
     ("certificate", "envelopes", "short_flight"),
-    ("truncation", "settled"),
 ]
 
 
