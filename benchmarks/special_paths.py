@@ -51,7 +51,6 @@ PATHS = {
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
     "flight_work": "work over a flight as a quadratic form (`structure/flight_work.rs`)",
     "flight_log": "peaks of flights read many at once (`peaks/fold.rs`, `bounds/span.rs`)",
-    "truncation": "peaks of many modes by the slow ones first (`quantities/truncated.rs`)",
     "settled": "modes whose swing is below rounding (`peaks/settled.rs`)",
 }
 
@@ -60,7 +59,6 @@ TOGETHER = [
     ("onset", "time_map"),
     ("windows", "onset", "time_map"),
     ("certificate", "envelopes", "short_flight"),
-    ("truncation", "settled"),
 ]
 
 

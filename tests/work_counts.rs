@@ -262,6 +262,23 @@ fn modes_that_have_settled_make_no_search_finer() {
     }
 }
 
+/// Several modes that swing for hours, read once: without damping they may come near the sum of their amplitudes at any time, and
+/// the search takes all of its pieces.
+#[test]
+fn searches_for_peaks_that_may_have_ended_early_are_counted() {
+    for (ratio, is_cut) in [(0.0, true), (0.001, false)] {
+        let frame =
+            "mass = [3.65, 3.65, 3.65]\nstiffness = [2910.0, 2910.0, 2910.0]\ninitial_velocity = [0.1, -0.3, 0.2]";
+        let scene =
+            scene(&format!("name = \"W\"\n[left]\n{frame}\ndamping = {{ ratio = {ratio:?} }}\n[right]\n{frame}"));
+        let mut run = Run::new(&scene, None);
+        run.to(50_000.0);
+        assert!(run.peak(PeakOf::Drift(Side::Left, 1)) > 0.0);
+        let cut = run.point.searches_cut_short();
+        assert_eq!(cut > 0, is_cut, "damping ratio {ratio}: {cut}");
+    }
+}
+
 /// What is done on the way of a quick mode is found at once, however often it swings.
 #[test]
 fn the_work_of_quick_modes_takes_no_pieces() {

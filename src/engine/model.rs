@@ -3,7 +3,6 @@
 use crate::engine::base::Base;
 use crate::engine::base::kinds::Refusal;
 use crate::engine::budget::{MOST_WORK, most_flights};
-use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::Flight;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::storeys::Storeys;
@@ -47,11 +46,10 @@ impl Model {
     pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
         let system = System::of(scene, record)?;
         let structure = &system.structure;
-        let usual = system.ground.as_ref().map(GroundMotion::usual_length);
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            watched: Watched::of(structure, scene.peaks, (usual, scene.floor_forces)),
+            watched: Watched::of(structure, scene.peaks, scene.floor_forces),
             frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),

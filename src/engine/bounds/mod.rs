@@ -33,8 +33,7 @@
 //! ends of series as both ends, with max |y''''| by the row's terms   nearly always                        the terms
 //! chord          the larger end + h^2/8 max |y''|; it does not turn  h w below 1; exact where y does not  the floors
 //!                if its ends differ by more than h^2/2 max |y''|     turn
-//! span           the largest end of some flights + a chord's bound,  quick modes follow the ground        the slow
-//!                over slow modes; the quick ones quasi-static, + R                                        modes
+//! span           the largest end of some flights + a chord's bound   as a chord                           the modes
 //!
 //! bound                                  file              who asks
 //! ------------------------------------------------------------------------------------------------------------------

@@ -1,23 +1,18 @@
-//! A block of quantities over a span: some flights that follow each other, read at their ends over the slow modes
-//! (`quantities/truncated.rs`).
+//! A block of quantities over a span: some flights that follow each other, read at their ends
+//! (`quantities/span_rows.rs`).
 //!
 //! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation while the
 //! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, sum
-//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. The quick modes' share of the ground's acceleration is linear in time, and
-//! has no deviation; what is left of them is bounded over parts of a span, from the motion at the start of the part and
-//! the changes of the ground's slope within. The accelerations that forces give to the floors on which they act are linear,
-//! too.
+//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. The accelerations that forces give to
+//! the floors on which they act are linear in time.
 //!
 //! Loads may jump from one flight to the next: then a quantity is read with the load at the end of the one, and with that at the
 //! start of the other.
 
 use crate::engine::bounds::flights::{Flights, Forces};
-use crate::engine::quantities::truncated::{FourModes, Mode, PushedFloors, TruncatedBlock, TruncatedBody};
-use crate::numerics::polynomial::{each, larger, largest};
+use crate::engine::quantities::span_rows::{FourModes, PushedFloors, SpanBlock};
+use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane, LinearGround, Motion};
-
-/// Flights in a part of a span, over which one bound on what is left of the quick modes holds.
-pub const PART: usize = 5;
 
 /// Rounding of a sum over modes, relative to the sum of the sizes of its terms.
 const ROUNDING: f64 = 1e-12;
@@ -31,14 +26,10 @@ pub struct Span<const N: usize> {
     /// Number of the first flight, and of flights.
     pub from: usize,
     pub count: usize,
-    /// Ground acceleration at the starts of the flights and after the last one, which is repeated, and at the ends of the
-    /// flights, m/s2.
-    ground: [[f64; N]; 2],
+    /// Ground acceleration at the starts of the flights and after the last one, which is repeated, m/s2.
+    ground: [f64; N],
     /// Its slopes from the starts on, m/s3.
     slopes: [f64; N],
-    /// The largest magnitudes of both.
-    strongest: f64,
-    steepest: f64,
     /// Length of the longest flight, s.
     longest: f64,
     /// Whether motion or acceleration jump anywhere.
@@ -47,7 +38,7 @@ pub struct Span<const N: usize> {
     is_pushed: bool,
 }
 
-/// Bounds on [`LANES`] slow modes side by side over a span: on q and on w^2 q + c q', of oscillators q', between the ends, and on
+/// Bounds on [`LANES`] modes side by side over a span: on q and on w^2 q + c q', of oscillators q', between the ends, and on
 /// the deviations from the chord.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ModeSizes {
@@ -57,12 +48,12 @@ pub struct ModeSizes {
 
 /// Bounds on a block of quantities over a span.
 pub struct BlockBounds<const N: usize> {
-    /// For each flight the larger magnitude at its start and its end, without what is left of the quick modes; 0 over a gap.
+    /// For each flight the larger magnitude at its start and its end; 0 over a gap.
     pub highest: [[f64; N]; LANES],
     /// A bound on the deviation from the chord.
     pub sag: Lane,
-    /// A bound on what is left of the quick modes, for each part, with the rounding of the values.
-    pub left: [Lane; N],
+    /// A bound on the rounding of the values.
+    pub rounding: Lane,
 }
 
 impl<const N: usize> Span<N> {
@@ -70,40 +61,24 @@ impl<const N: usize> Span<N> {
     pub fn of(flights: &Flights, from: usize) -> Span<N> {
         let count = (flights.count() - from).min(N - 1);
         let end = flights.load(from + count);
-        let (mut ground, mut slopes) = ([[end.ground.acceleration; N]; 2], [end.ground.slope; N]);
+        let (mut ground, mut slopes) = ([end.ground.acceleration; N], [end.ground.slope; N]);
         let (mut longest, mut jumps) = (0.0, false);
         let mut before = flights.load(from).ground.acceleration;
         for (t, load) in flights.loads[from..from + count].iter().enumerate() {
-            let (LinearGround { acceleration, slope }, last) = (load.ground, load.ground.after(load.length));
-            (ground[0][t], ground[1][t], slopes[t]) = (acceleration, last, slope);
+            let LinearGround { acceleration, slope } = load.ground;
+            (ground[t], slopes[t]) = (acceleration, slope);
             longest = larger(longest, load.length);
             // By more than rounding.
             let is_jump = (before - acceleration).abs() > JUMP * (before.abs() + acceleration.abs());
             jumps |= load.length == 0.0 || is_jump;
-            before = last;
+            before = load.ground.after(load.length);
         }
-        let strongest = ground.map(|all| largest(&all.map(f64::abs)));
         let is_pushed = flights.forces.is_some_and(|forces| forces.of[from..from + count].iter().any(|set| *set > 0));
-        Span {
-            from,
-            count,
-            ground,
-            slopes,
-            strongest: larger(strongest[0], strongest[1]),
-            steepest: largest(&slopes.map(f64::abs)),
-            longest,
-            jumps,
-            is_pushed,
-        }
+        Span { from, count, ground, slopes, longest, jumps, is_pushed }
     }
 
-    /// Number of parts.
-    pub fn parts(&self) -> usize {
-        self.count.div_ceil(PART)
-    }
-
-    /// Bounds some modes, which are all of them where forces may act on floors. Returns a size by which spans are put in order.
-    pub fn bound_slow(&self, flights: &Flights, fours: &[FourModes], sizes: &mut [ModeSizes]) -> f64 {
+    /// Bounds all modes. Returns a size by which spans are put in order.
+    pub fn bound_modes(&self, flights: &Flights, fours: &[FourModes], sizes: &mut [ModeSizes]) -> f64 {
         set_largest(self, flights, fours, sizes);
         if let Some(Forces { energies, .. }) = flights.forces {
             for (sizes, four) in sizes.iter_mut().zip(fours) {
@@ -124,8 +99,8 @@ impl<const N: usize> Span<N> {
         sizes.iter_mut().zip(fours).map(finish).sum()
     }
 
-    /// Reads some modes at the ends: writes q and w^2 q + c q', of oscillators q'.
-    pub fn read_slow(&self, flights: &Flights, fours: &[FourModes], out: &mut [[[f64; N]; 2]]) {
+    /// Reads the modes of a body at the ends: writes q and w^2 q + c q', of oscillators q'.
+    pub fn read_modes(&self, flights: &Flights, fours: &[FourModes], out: &mut [[[f64; N]; 2]]) {
         for t in 0..N {
             let Motion { q, v } = flights.motion(self.from + t.min(self.count));
             for (four, out) in fours.iter().zip(out.as_chunks_mut::<LANES>().0) {
@@ -137,43 +112,15 @@ impl<const N: usize> Span<N> {
         }
     }
 
-    /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
-    /// of all parts the largest ones.
-    pub fn bound_quick(&self, flights: &Flights, offset: usize, body: &TruncatedBody, out: &mut [f64]) {
-        let TruncatedBody { modes, groups, .. } = body;
-        let (parts, most) = out.split_at_mut(self.parts() * groups.len());
-        most.fill(0.0);
-        for (part, out) in parts.chunks_mut(groups.len()).enumerate() {
-            let (from, to) = (part * PART, ((part + 1) * PART).min(self.count));
-            let kinks: f64 = self.slopes[from..to].windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
-            out.fill(0.0);
-            // After a jump the quick modes may swing more.
-            for t in from..if self.jumps { to } else { from + 1 } {
-                let Motion { q, v } = flights.motion(self.from + t);
-                for (group, out) in groups.iter().zip(&mut *out) {
-                    let range = offset + group.modes.start..offset + group.modes.end;
-                    let (modes, motion) = (&modes[group.modes.clone()], Motion { q: &q[range.clone()], v: &v[range] });
-                    *out = larger(*out, swing_of(modes, motion, [self.ground[0][t], self.slopes[t]]));
-                }
-            }
-            for ((group, out), most) in groups.iter().zip(out).zip(&mut *most) {
-                *out += group.kick * kinks;
-                *most = larger(*most, *out);
-            }
-        }
-    }
-
-    /// Upper bounds on the magnitudes of all quantities of some blocks over the span, from the bounds on slow and quick modes.
+    /// Upper bounds on the magnitudes of all quantities of some blocks over the span, from the bounds on the modes.
     pub fn bound_coarsely(
         &self,
         flights: &Flights,
-        (blocks, rest): (&[TruncatedBlock], &[Lane]),
-        (sizes, quick): (&[ModeSizes], &[f64]),
+        (blocks, rest): (&[SpanBlock], &[Lane]),
+        sizes: &[ModeSizes],
         out: &mut [Lane],
     ) {
-        let groups = blocks.first().map_or(0, |block| block.left.len());
-        let bounds = (sizes, &quick[self.parts() * groups..]);
-        bound_blocks((blocks, rest), bounds, [self.strongest, self.steepest], out);
+        bound_blocks((blocks, rest), sizes, out);
         for (block, out) in blocks.iter().zip(out).filter(|_| self.is_pushed) {
             if let Some(floors) = block.pushed {
                 let [starts, ends] = self.pushes(flights, &floors);
@@ -203,54 +150,34 @@ impl<const N: usize> Span<N> {
     pub fn bound(
         &self,
         flights: &Flights,
-        (block, at_rest): (&TruncatedBlock, &Lane),
+        (block, at_rest): (&SpanBlock, &Lane),
         (motion, sizes): (&[[[f64; N]; 2]], &[ModeSizes]),
-        (quick, coarse): (&[f64], &Lane),
+        coarse: &Lane,
     ) -> BlockBounds<N> {
-        let groups = block.left.len();
-        let mut left = [[0.0; LANES]; N];
-        for (k, left) in left.iter_mut().take(self.parts()).enumerate() {
-            *left = each(|i| ROUNDING * coarse[i] + block.per_slope[i] * self.steepest);
-            for (row, most) in block.left.iter().zip(&quick[k * groups..]) {
-                for i in 0..LANES {
-                    left[i] += row[i] * most;
-                }
-            }
-        }
-        let sag = sum_sags(&block.rows, sizes);
         let values = values_at(&block.rows, motion, at_rest);
         let mut highest = match block.pushed.filter(|_| self.is_pushed) {
             Some(floors) => highest_of_pushed(&values, &self.pushes(flights, &floors)),
-            None => highest_at(&values, &block.per_ground, &self.ground),
+            None => highest_at(&values),
         };
         // Both ends of a gap are those of the flights beside it.
         let loads = &flights.loads[self.from..self.from + self.count];
         for (k, _) in loads.iter().enumerate().filter(|(_, load)| self.jumps && load.length == 0.0) {
             highest.iter_mut().for_each(|highest| highest[k] = 0.0);
         }
-        BlockBounds { highest, sag, left }
+        BlockBounds { highest, sag: sum_sags(&block.rows, sizes), rounding: coarse.map(|coarse| ROUNDING * coarse) }
     }
 }
 
 impl<const N: usize> BlockBounds<N> {
     /// Upper bounds over flight `k`.
     pub fn upper(&self, k: usize) -> Lane {
-        let left = &self.left[k / PART];
-        each(|i| self.highest[i][k] + self.sag[i] + left[i])
+        each(|i| self.highest[i][k] + self.sag[i] + self.rounding[i])
     }
 
     /// Lower bounds on the largest magnitudes, and upper ones, over all `count` flights.
     pub fn extremes(&self, count: usize) -> [Lane; 2] {
-        let (mut least, mut most) = ([0.0; LANES], [0.0; LANES]);
-        for (part, left) in self.left.iter().enumerate().take(count.div_ceil(PART)) {
-            let to = ((part + 1) * PART).min(count);
-            for i in 0..LANES {
-                let value = self.highest[i][part * PART..to].iter().fold(0.0, |most, value| larger(most, *value));
-                least[i] = larger(least[i], value - left[i]);
-                most[i] = larger(most[i], value + self.sag[i] + left[i]);
-            }
-        }
-        [least, most]
+        let highest = self.highest.map(|of| of[..count].iter().fold(0.0, |most, value| larger(most, *value)));
+        [each(|i| larger(0.0, highest[i] - self.rounding[i])), each(|i| highest[i] + self.sag[i] + self.rounding[i])]
     }
 }
 
@@ -264,7 +191,7 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
         let (mut moved, mut pulled, mut energy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         for (t, Motion { q, v }) in motions.iter().enumerate().take(span.count + 1) {
             let (q, v) = (four.of_vector(q), four.of_vector(v));
-            let acceleration = each(|i| -share[i] * span.ground[0][t] - (w2[i] * q[i] + c[i] * v[i]));
+            let acceleration = each(|i| -share[i] * span.ground[t] - (w2[i] * q[i] + c[i] * v[i]));
             let jerk = each(|i| -share[i] * span.slopes[t] - c[i] * acceleration[i] - w2[i] * v[i]);
             moved = each(|i| larger(moved[i], q[i].abs()));
             pulled = each(|i| larger(pulled[i], (second[0][i] * q[i] + second[1][i] * v[i]).abs()));
@@ -274,39 +201,17 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
     }
 }
 
-/// The largest R of some modes at a motion, with the ground's acceleration and its slope.
+/// Upper bounds on the magnitudes of the quantities of some blocks: the sums of |A| times the bounds on the modes.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn swing_of(modes: &[Mode], Motion { q, v }: Motion, [ground, slope]: [f64; 2]) -> f64 {
-    let mut most = [0.0; 2 * LANES];
-    for (m, (Mode { w2, w, c, share }, (q, v))) in modes.iter().zip(q.iter().zip(v)).enumerate() {
-        let stray = w2 * q + share * (ground - c / w2 * slope);
-        let rate = w * v + share * slope / w;
-        let place = &mut most[m % (2 * LANES)];
-        *place = larger(*place, stray * stray + rate * rate);
-    }
-    largest(&most).sqrt()
-}
-
-/// Upper bounds on the magnitudes of the quantities of some blocks: the slow modes' part by the sums of |A| times the bounds
-/// on the modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bound_blocks(
-    (blocks, rest): (&[TruncatedBlock], &[Lane]),
-    (sizes, quick): (&[ModeSizes], &[f64]),
-    [strongest, steepest]: [f64; 2],
-    out: &mut [Lane],
-) {
-    for ((TruncatedBlock { rows, per_ground, per_slope, left, .. }, at_rest), out) in blocks.iter().zip(rest).zip(out) {
-        let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
+fn bound_blocks((blocks, rest): (&[SpanBlock], &[Lane]), sizes: &[ModeSizes], out: &mut [Lane]) {
+    for ((SpanBlock { rows, .. }, at_rest), out) in blocks.iter().zip(rest).zip(out) {
+        let mut sum = at_rest.map(f64::abs);
         for (kind, row) in rows.iter().enumerate() {
             for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
                 for (row, most) in rows.iter().zip(sizes.most[kind]) {
                     sum = each(|i| sum[i] + row[i].abs() * most);
                 }
             }
-        }
-        for (row, most) in left.iter().zip(quick) {
-            sum = each(|i| sum[i] + row[i] * most);
         }
         *out = each(|i| (1.0 + ROUNDING) * sum[i]);
     }
@@ -346,25 +251,19 @@ fn values_at<const N: usize>(rows: &[Vec<Lane>; 2], motion: &[[[f64; N]; 2]], at
     all
 }
 
-/// The larger magnitude at the start and at the end of each flight, from the modes' values at their ends and shares of the
-/// ground's acceleration.
+/// The larger magnitude at the start and at the end of each flight, from the values at their ends.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn highest_at<const N: usize>(
-    values: &[[f64; N]; LANES],
-    per_ground: &Lane,
-    [first, last]: &[[f64; N]; 2],
-) -> [[f64; N]; LANES] {
+fn highest_at<const N: usize>(values: &[[f64; N]; LANES]) -> [[f64; N]; LANES] {
     let mut highest = [[0.0; N]; LANES];
     for i in 0..LANES {
         for k in 0..N - 1 {
-            let (start, end) = (values[i][k] + per_ground[i] * first[k], values[i][k + 1] + per_ground[i] * last[k]);
-            highest[i][k] = larger(start.abs(), end.abs());
+            highest[i][k] = larger(values[i][k].abs(), values[i][k + 1].abs());
         }
     }
     highest
 }
 
-/// The same with what forces add to accelerations at the starts and at the ends; all modes are slow then.
+/// The same with what forces add to accelerations at the starts and at the ends.
 fn highest_of_pushed<const N: usize>(values: &[[f64; N]; LANES], [starts, ends]: &[[Lane; N]; 2]) -> [[f64; N]; LANES] {
     let mut highest = [[0.0; N]; LANES];
     for k in 0..N - 1 {

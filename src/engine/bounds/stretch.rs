@@ -35,6 +35,8 @@ pub struct ModeBounds {
     pub first: Vec<f64>,
     /// Modal accelerations relative to the ground at the end.
     pub last: Vec<f64>,
+    /// Modal third derivatives at the start.
+    jerk: Vec<f64>,
     /// E = sqrt(q'''^2 + w^2 q''^2), which never grows: a bound on |q'''|; and E / w, one on |q''|.
     pub energy: Vec<f64>,
     pub energy_over_w: Vec<f64>,
@@ -58,6 +60,7 @@ impl ModeBounds {
         ModeBounds {
             first: vector(),
             last: vector(),
+            jerk: vector(),
             energy: vector(),
             energy_over_w: vector(),
             swing: vector(),
@@ -70,16 +73,16 @@ impl ModeBounds {
     }
 
     /// Works out bounds on a building's modes over a flight: on their derivatives, and on their oscillations.
-    pub fn set(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, jerk: &mut [f64]) {
+    pub fn set(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
         self.set_accelerations(structure, modes.clone(), flight);
         let (v, slope) = (flight.start.v, flight.loads.slope);
         for m in modes.clone() {
-            jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
+            self.jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
         }
-        structure.subtract_coupling_of(&modes, &self.first, 1.0, jerk);
+        structure.subtract_coupling_of(&modes, &self.first, 1.0, &mut self.jerk);
         for m in modes.clone() {
-            let (w2, acceleration) = (structure.omega2[m], self.first[m]);
-            self.energy[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
+            let (w2, acceleration, jerk) = (structure.omega2[m], self.first[m], self.jerk[m]);
+            self.energy[m] = (jerk * jerk + w2 * acceleration * acceleration).sqrt();
         }
         let is_coupled = structure.couples(modes.start);
         if is_coupled {

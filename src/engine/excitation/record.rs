@@ -117,11 +117,6 @@ impl GroundMotion {
         self.work.iter().find(|work| work.length == length && !cfg!(without = "flight_work"))
     }
 
-    /// The longest of the prepared lengths, s: that of all segments of an even record.
-    pub(crate) fn usual_length(&self) -> f64 {
-        self.prepared.iter().fold(0.0, |longest, interval| interval.length.max(longest))
-    }
-
     /// The number of a segment, counted on after the record's end; `None` before the first sample.
     pub(crate) fn number(&self, segment: &Segment) -> Option<u64> {
         match segment.place {

@@ -18,6 +18,11 @@ impl Point {
     pub fn motions_searched(&self) -> u64 {
         self.peaks.borrow().work.as_ref().map_or(0, |room| room.1.motions)
     }
+
+    /// Number of searches of flights for peaks that may have ended before the flight did.
+    pub fn searches_cut_short(&self) -> u64 {
+        self.peaks.borrow().work.as_ref().map_or(0, |room| room.1.cut_short)
+    }
 }
 
 impl Instant<'_> {

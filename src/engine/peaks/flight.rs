@@ -23,8 +23,7 @@ impl PeakFinder<'_> {
     pub(in crate::engine) fn check_blocks(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
         for body in &self.watched.in_flight().bodies {
-            let jerk = &mut work.buffers.node_v;
-            work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), flight, jerk);
+            work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), flight);
             for b in 0..body.blocks.len() {
                 self.check_block(body, b, (flight, None), peaks, work);
             }

@@ -1,21 +1,21 @@
 //! Folding logged flights into the peaks, largest spans first.
 //!
-//! Each body's flights are read in spans of some flights over its slow modes (`bounds/span.rs`). A block of quantities
+//! Each body's flights are read in spans of some flights (`bounds/span.rs`). A block of quantities
 //! whose bound over a span is below its peaks is done with; the others are read at the ends of the flights, which gives a
-//! lower bound on each peak and an upper bound on each flight. Only the flights that may exceed a peak are read with all
-//! modes, and searched for turning points: of many thousands a few. All peaks come from there; the slow modes only tell where
-//! to look, so that no result depends on when, and how often, the log is folded.
+//! lower bound on each peak and an upper bound on each flight. Only the flights that may exceed a peak are read at
+//! their ends, and searched for turning points: of many thousands a few. All peaks come from there; spans only tell where to
+//! look, so that no result depends on when, and how often, the log is folded.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
-use crate::engine::bounds::span::{BlockBounds, PART, Span};
+use crate::engine::bounds::span::{BlockBounds, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::fold_room::{FoldRoom, OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BodyRows, values_of};
-use crate::engine::quantities::truncated::{FourModes, TruncatedBody};
+use crate::engine::quantities::span_rows::{FourModes, SpanBody};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane, LinearLoad, Motion};
 use std::ops::Range;
@@ -26,7 +26,7 @@ struct Fold<'a> {
     /// The fours of all bodies.
     fours: &'a [FourModes],
     rows: &'a BodyRows,
-    truncated: &'a TruncatedBody,
+    of_spans: &'a SpanBody,
     /// The quantities at rest.
     rest: &'a [Lane],
 }
@@ -52,14 +52,14 @@ impl PeakFinder<'_> {
     fn find_survivors(&self, flights: &Flights, rest: &[f64], peaks: &mut Peaks, room: &mut FoldRoom) {
         room.survivors.clear();
         let is_short = flights.count() < SHORT;
-        let fours = &self.watched.truncated.fours[..];
+        let fours = &self.watched.of_spans.fours[..];
         match is_short {
             true => room.short.start(flights, fours),
             false => room.long.start(flights, fours),
         }
-        for (rows, truncated) in self.watched.in_flight().bodies.iter().zip(&self.watched.truncated.bodies) {
+        for (rows, of_spans) in self.watched.in_flight().bodies.iter().zip(&self.watched.of_spans.bodies) {
             let of_body = rows.first..rows.first + rows.blocks.len();
-            let fold = Fold { flights, fours, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()] };
+            let fold = Fold { flights, fours, rows, of_spans, rest: &rest.as_chunks::<LANES>().0[of_body.clone()] };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
             match is_short {
                 true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
@@ -127,7 +127,7 @@ impl PeakFinder<'_> {
         };
         let body = self.watched.rows.body_of(survivor.block);
         let floors =
-            self.watched.truncated.bodies[body].blocks[survivor.block - self.watched.rows.bodies[body].first].pushed;
+            self.watched.of_spans.bodies[body].blocks[survivor.block - self.watched.rows.bodies[body].first].pushed;
         floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
     }
 
@@ -183,8 +183,7 @@ impl PeakFinder<'_> {
             let mut is_bounded = false;
             for survivor in survivors.iter().filter(|survivor| own.contains(&survivor.block)) {
                 if !std::mem::replace(&mut is_bounded, true) {
-                    let jerk = &mut work.buffers.node_v;
-                    work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), stretch, jerk);
+                    work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), stretch);
                 }
                 let known_ends = Some(survivor.ends);
                 self.check_block(body, survivor.block - body.first, (stretch, known_ends), peaks, work);
@@ -206,8 +205,7 @@ impl Fold<'_> {
             return;
         }
         let (spans, order) = (std::mem::take(&mut room.spans), std::mem::take(&mut room.order));
-        self.bound_quick(&spans, room);
-        room.motion.resize(self.truncated.fours.len() * LANES, [[0.0; N]; 2]);
+        room.motion.resize(self.of_spans.fours.len() * LANES, [[0.0; N]; 2]);
         for &(_, number) in &order {
             self.read_span((number, &spans[number]), known, room);
         }
@@ -224,30 +222,16 @@ impl Fold<'_> {
         (room.spans, room.order, room.open) = (spans, order, open);
     }
 
-    /// Works out the bounds on the quick modes over all spans.
-    fn bound_quick<const N: usize>(&self, spans: &[Span<N>], room: &mut SpanRoom<N>) {
-        let (groups, each) = (self.truncated.groups.len(), self.quick_in::<N>());
-        room.quick.resize(spans.len() * each, 0.0);
-        for (span, quick) in spans.iter().zip(room.quick.chunks_exact_mut(each.max(1))) {
-            span.bound_quick(
-                self.flights,
-                self.rows.modes.start,
-                self.truncated,
-                &mut quick[..(span.parts() + 1) * groups],
-            );
-        }
-    }
-
     fn read_modes<const N: usize>(&self, span: &Span<N>, room: &mut SpanRoom<N>) {
-        span.read_slow(self.flights, &self.fours[self.truncated.fours.clone()], &mut room.motion);
+        span.read_modes(self.flights, &self.fours[self.of_spans.fours.clone()], &mut room.motion);
     }
 
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.
     fn read_span<const N: usize>(&self, span: (usize, &Span<N>), known: &mut [Lane], room: &mut SpanRoom<N>) {
         let (mut is_read, mut coarse) = (false, std::mem::take(&mut room.coarse));
-        coarse.resize(self.truncated.blocks.len(), [0.0; LANES]);
-        let read = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
-        span.1.bound_coarsely(self.flights, (&self.truncated.blocks, self.rest), read, &mut coarse);
+        coarse.resize(self.of_spans.blocks.len(), [0.0; LANES]);
+        let sizes = &room.sizes[self.sizes_of(span.0)];
+        span.1.bound_coarsely(self.flights, (&self.of_spans.blocks, self.rest), sizes, &mut coarse);
         for (b, &coarse) in coarse.iter().enumerate() {
             if is_below(&coarse, &known[b]) {
                 continue;
@@ -288,23 +272,12 @@ impl Fold<'_> {
 
     fn bound<const N: usize>(&self, span: &Span<N>, open: &OpenBlock, room: &SpanRoom<N>) -> BlockBounds<N> {
         let read = (&room.motion[..], &room.sizes[self.sizes_of(open.span)]);
-        let quick = (self.quick_of::<N>(open.span, room), &open.coarse);
-        span.bound(self.flights, (&self.truncated.blocks[open.block], &self.rest[open.block]), read, quick)
+        span.bound(self.flights, (&self.of_spans.blocks[open.block], &self.rest[open.block]), read, &open.coarse)
     }
 
     fn sizes_of(&self, span: usize) -> Range<usize> {
-        let (from, of) = (span * self.fours.len(), &self.truncated.fours);
+        let (from, of) = (span * self.fours.len(), &self.of_spans.fours);
         from + of.start..from + of.end
-    }
-
-    /// Number of bounds on quick modes for one span.
-    fn quick_in<const N: usize>(&self) -> usize {
-        (N.div_ceil(PART) + 1) * self.truncated.groups.len()
-    }
-
-    fn quick_of<'r, const N: usize>(&self, span: usize, room: &'r SpanRoom<N>) -> &'r [f64] {
-        let each = self.quick_in::<N>();
-        &room.quick[span * each..(span + 1) * each]
     }
 }
 

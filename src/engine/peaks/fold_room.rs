@@ -1,9 +1,9 @@
 //! Scratch memory of a fold.
 
 use crate::engine::bounds::flights::Flights;
-use crate::engine::bounds::span::{ModeSizes, PART, Span};
+use crate::engine::bounds::span::{ModeSizes, Span};
 use crate::engine::quantities::rows::PeakRows;
-use crate::engine::quantities::truncated::{FourModes, TruncatedBody, TruncatedRows};
+use crate::engine::quantities::span_rows::{FourModes, SpanRows};
 use crate::structure::{LANES, Lane};
 
 /// Times in a span of a long log, and of one or two flights.
@@ -25,11 +25,10 @@ pub(in crate::engine) struct FoldRoom {
 #[derive(Clone, Debug, Default)]
 pub(super) struct SpanRoom<const N: usize> {
     pub(super) spans: Vec<Span<N>>,
-    /// The slow modes in one span.
+    /// The modes of a body in one span.
     pub(super) motion: Vec<[[f64; N]; 2]>,
-    /// Bounds on the slow modes and on the groups of the quick ones, span by span.
+    /// Bounds on the modes, span by span.
     pub(super) sizes: Vec<ModeSizes>,
-    pub(super) quick: Vec<f64>,
     /// Bounds on the blocks of a body over one span.
     pub(super) coarse: Vec<Lane>,
     /// Sizes and numbers of the spans, largest first.
@@ -62,30 +61,29 @@ pub(super) struct Survivor {
 
 impl FoldRoom {
     /// Room for folds of so many flights over these rows.
-    pub fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> FoldRoom {
+    pub fn new(rows: &PeakRows, of_spans: &SpanRows, flights: usize) -> FoldRoom {
         let survivors = if flights == 0 { 0 } else { SURVIVORS * rows.blocks() };
-        let (long, short) = (SpanRoom::new(rows, truncated, flights), SpanRoom::new(rows, truncated, flights.min(1)));
+        let (long, short) = (SpanRoom::new(rows, of_spans, flights), SpanRoom::new(rows, of_spans, flights.min(1)));
         FoldRoom { long, short, survivors: Vec::with_capacity(survivors) }
     }
 }
 
 impl<const N: usize> SpanRoom<N> {
-    fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> SpanRoom<N> {
+    fn new(rows: &PeakRows, of_spans: &SpanRows, flights: usize) -> SpanRoom<N> {
         let spans = flights.div_ceil(N - 1);
-        let most = |of: &dyn Fn(&TruncatedBody) -> usize| truncated.bodies.iter().map(of).max().unwrap_or(0);
+        let fours = of_spans.bodies.iter().map(|body| body.fours.len()).max().unwrap_or(0);
         let blocks = rows.bodies.iter().map(|body| body.blocks.len()).max().unwrap_or(0);
         SpanRoom {
             spans: Vec::with_capacity(spans),
-            motion: Vec::with_capacity(LANES * most(&|body| body.fours.len())),
-            sizes: Vec::with_capacity(spans * truncated.fours.len()),
-            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|body| body.groups.len())),
+            motion: Vec::with_capacity(LANES * fours),
+            sizes: Vec::with_capacity(spans * of_spans.fours.len()),
             coarse: Vec::with_capacity(blocks),
             order: Vec::with_capacity(spans),
             open: Vec::with_capacity(spans * blocks),
         }
     }
 
-    /// Divides flights into spans, and works out bounds on the slow modes over them.
+    /// Divides flights into spans, and works out bounds on the modes over them.
     pub(super) fn start(&mut self, flights: &Flights, fours: &[FourModes]) {
         let SpanRoom { spans, sizes, order, .. } = self;
         spans.clear();
@@ -93,7 +91,7 @@ impl<const N: usize> SpanRoom<N> {
         sizes.resize(spans.len() * fours.len(), ModeSizes::default());
         order.clear();
         let of_spans = spans.iter().zip(sizes.chunks_exact_mut(fours.len().max(1))).enumerate();
-        order.extend(of_spans.map(|(number, (span, sizes))| (span.bound_slow(flights, fours, sizes), number)));
+        order.extend(of_spans.map(|(number, (span, sizes))| (span.bound_modes(flights, fours, sizes), number)));
         order.sort_unstable_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
-//! are needed: flights are logged (`flight/log.rs`) and read many at once, by their slow modes ([`fold`]). In contact the largest
+//! are needed: flights are logged (`flight/log.rs`) and read many at once ([`fold`]). In contact the largest
 //! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
 //! series in time ([`reading`]).
@@ -67,7 +67,7 @@ impl PeakFinder<'_> {
 
     /// Scratch memory, in which so many flights can be folded at once.
     pub(in crate::engine) fn peak_room(&self, flights: usize) -> PeakRoom {
-        let rows = (&self.watched.rows, &self.watched.truncated);
+        let rows = (&self.watched.rows, &self.watched.of_spans);
         PeakRoom::new(&self.system.structure, rows, self.system.pairs.len(), flights)
     }
 

@@ -5,7 +5,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::peaks::fold_room::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
-use crate::engine::quantities::truncated::TruncatedRows;
+use crate::engine::quantities::span_rows::SpanRows;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{Interval, LANES, Structure};
 
@@ -22,7 +22,8 @@ pub const LEAVES: usize = 16;
 const MOST_FLOWN: usize = 32;
 
 /// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
-/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
+/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed, which
+/// `cut_short` counts.
 pub const MOST_PIECES: u32 = 10_000;
 
 /// The latest results of something that is worked out for one time, s, and then for another.
@@ -112,6 +113,8 @@ pub struct PeakRoom {
     pub flown: Latest<[Vec<f64>; 2]>,
     /// Number of motions that have been worked out there, of all flights.
     pub motions: u64,
+    /// Number of searches of a flight for one quantity that took all of their pieces, so that they may have ended before it.
+    pub cut_short: u64,
     /// Exact flights over the first parts of flights: those of equal lengths have the same parts.
     pub parts: Latest<Interval>,
     /// q and v at the start and at the end of a piece.
@@ -146,18 +149,19 @@ pub struct PeakRoom {
 impl PeakRoom {
     pub fn new(
         structure: &Structure,
-        (rows, truncated): (&PeakRows, &TruncatedRows),
+        (rows, of_spans): (&PeakRows, &SpanRows),
         pairs: usize,
         flights: usize,
     ) -> PeakRoom {
         let lanes = structure.lanes;
         PeakRoom {
-            fold: FoldRoom::new(rows, truncated, flights),
+            fold: FoldRoom::new(rows, of_spans, flights),
             bounds: ModeBounds::new(lanes),
             piece: ModeBounds::new(lanes),
             suspects: Vec::with_capacity(rows.blocks() * LANES),
             flown: Latest::new([(); 2].map(|()| vec![0.0; lanes]), if rows.are_none() { 0 } else { MOST_FLOWN }),
             motions: 0,
+            cut_short: 0,
             parts: Latest::new(Interval::room(structure), if rows.are_none() { 0 } else { MOST_PARTS }),
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],

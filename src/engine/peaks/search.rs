@@ -90,6 +90,7 @@ impl PeakFinder<'_> {
             }
             self.search_piece(flight, whole, until, of_body, work);
         }
+        work.peaks.cut_short += suspects.iter().filter(|suspect| suspect.pieces_left == 0).count() as u64;
         suspects.drain(..).for_each(|suspect| peaks.raise(suspect.place, suspect.peak));
         work.peaks.suspects = suspects;
     }
@@ -267,13 +268,13 @@ impl PeakFinder<'_> {
         self.fly_to(flight, piece.from, [0, 1], work);
         self.fly_to(flight, piece.to, [2, 3], work);
         self.set_load(flight, piece.from, work);
-        let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
+        let peaks = &mut *work.peaks;
         let [q, v, end_q, end_v] = &peaks.pieces;
         let (loads, length) = (LinearLoad { load: &peaks.load, slope: flight.loads.slope }, piece.to - piece.from);
         let (start, end) = (Motion { q, v }, Motion { q: end_q, v: end_v });
         let own = Stretch { start, end, loads, length, is_suspect: false, whole: None, ..*flight };
         let modes = self.watched.in_flight().bodies[self.body_of(&suspects[0])].modes.clone();
-        peaks.piece.set(self.system.structure.in_flight(), modes, &own, jerk);
+        peaks.piece.set(self.system.structure.in_flight(), modes, &own);
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
             let (place, (body, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
             let mut known = [f64::INFINITY; LANES];

@@ -3,6 +3,6 @@
 pub(super) mod flight_row;
 pub(super) mod resistance;
 pub(super) mod rows;
+pub(super) mod span_rows;
 pub(super) mod storeys;
-pub(super) mod truncated;
 pub(super) mod watched;

@@ -25,11 +25,11 @@ pub struct Buffers {
     pub series: MotionSeries,
     /// The exact response over some time.
     pub interval: Interval,
-    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load with contact forces (`rigid`),
+    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load on modes, with contact forces (`rigid`),
     /// bounds on the floors' displacements (`taylor`, `onset`), or a term of a series.
     pub node_q: Vec<f64>,
     /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
-    /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.
+    /// (`flight`, `window`), or a term of a series.
     pub node_v: Vec<f64>,
     /// Memory for the work over a flight, with the energy that the dashpots of links dissipate over any step.
     pub account: WorkRoom,

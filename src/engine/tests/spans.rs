@@ -6,7 +6,7 @@ use crate::engine::Model;
 use crate::engine::base::Coordinates;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::flights::{Flights, Load, set_energies};
-use crate::engine::bounds::span::{ModeSizes, PART, Span};
+use crate::engine::bounds::span::{ModeSizes, Span};
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::flight::log::FlightLog;
 use crate::engine::quantities::rows::{PeakOf, RowBlock, values_of};
@@ -155,25 +155,20 @@ fn compare<const N: usize>(case: &Case) -> f64 {
     let flights = case.flights();
     let motions: Vec<Vec<_>> = (0..flights.count()).map(|k| case.instants(k)).collect();
     let mut nearest = f64::INFINITY;
-    for (rows, truncated) in case.model.watched.in_flight().bodies.iter().zip(&case.model.watched.truncated.bodies) {
-        let groups = truncated.groups.len();
-        let fours = &case.model.watched.truncated.fours[truncated.fours.clone()];
+    let of_spans = &case.model.watched.of_spans;
+    for (rows, body) in case.model.watched.in_flight().bodies.iter().zip(&of_spans.bodies) {
+        let fours = &of_spans.fours[body.fours.clone()];
         let mut motion = vec![[[0.0; N]; 2]; LANES * fours.len()];
         let mut sizes = vec![ModeSizes::default(); fours.len()];
         for from in (0..flights.count()).step_by(N - 1) {
             let span = Span::<N>::of(&flights, from);
-            let mut quick = vec![0.0; (N.div_ceil(PART) + 1) * groups];
-            span.bound_slow(&flights, fours, &mut sizes);
-            span.read_slow(&flights, fours, &mut motion);
-            if groups > 0 {
-                span.bound_quick(&flights, rows.modes.start, truncated, &mut quick[..(span.parts() + 1) * groups]);
-            }
+            span.bound_modes(&flights, fours, &mut sizes);
+            span.read_modes(&flights, fours, &mut motion);
             let (at_rest, mut coarse) = (vec![[0.0; LANES]; rows.blocks.len()], vec![[0.0; LANES]; rows.blocks.len()]);
-            span.bound_coarsely(&flights, (&truncated.blocks, &at_rest), (&sizes, &quick), &mut coarse);
-            for (b, (block, truncated)) in rows.blocks.iter().zip(&truncated.blocks).enumerate() {
+            span.bound_coarsely(&flights, (&body.blocks, &at_rest), &sizes, &mut coarse);
+            for (b, (block, of_span)) in rows.blocks.iter().zip(&body.blocks).enumerate() {
                 let coarse = &coarse[b];
-                let (read, of_quick) = ((&motion[..], &sizes[..]), (&quick[..], coarse));
-                let bounds = span.bound(&flights, (truncated, &[0.0; LANES]), read, of_quick);
+                let bounds = span.bound(&flights, (of_span, &[0.0; LANES]), (&motion, &sizes), coarse);
                 let [least, most] = bounds.extremes(span.count);
                 let mut largest = [0.0_f64; LANES];
                 // A gap has no motion of its own.
@@ -221,7 +216,7 @@ fn compare<const N: usize>(case: &Case) -> f64 {
 #[test]
 fn no_quantity_passes_its_bounds_over_a_span() {
     let mut random = Random(31);
-    let (mut nearest, mut truncated, mut oscillating) = ([f64::INFINITY; 3], 0, 0);
+    let (mut nearest, mut oscillating) = ([f64::INFINITY; 3], 0);
     for storeys in [[1, 2], [12, 3], [13, 25], [40, 20]] {
         for (rate, damping) in [2.0, 12.0, 60.0].into_iter().flat_map(|rate| [0.0, 0.05, 0.4].map(|of| (rate, of))) {
             for (kind, has) in [(false, false), (true, false), (false, true)].into_iter().enumerate() {
@@ -234,15 +229,12 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 case.fly(&mut random, 20, factor);
                 let nearest = &mut nearest[kind];
                 *nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
-                let bodies = case.model.watched.truncated.bodies.iter().zip(&case.model.system.structure.bodies);
-                oscillating += bodies.filter(|(rows, body)| body.is_coupled() && !rows.groups.is_empty()).count();
-                truncated += case.model.watched.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
+                oscillating += usize::from(case.model.watched.oscillates());
             }
         }
     }
     assert!(nearest.iter().all(|nearest| *nearest < 1.01), "no bound comes within a hundredth: {nearest:?}");
-    assert!(oscillating > 2, "{oscillating} bodies with quick oscillators");
-    assert!(truncated > 5, "{truncated} buildings with quick modes");
+    assert!(oscillating > 2, "{oscillating} cases with oscillators");
 }
 
 /// One mode or oscillator that swings alone, about the quasi-static displacement under a load that changes: there the bound by
@@ -299,7 +291,7 @@ fn no_quantity_leaves_its_envelope() {
                 whole: None,
             };
             let mut bounds = ModeBounds::new(structure.lanes);
-            bounds.set(structure, rows.modes.clone(), &stretch, &mut vec![0.0; structure.lanes]);
+            bounds.set(structure, rows.modes.clone(), &stretch);
             for (block, reached) in rows.blocks.iter().zip(reached) {
                 let below = |peaks: &Lane| stay_below(peaks, (block, &[0.0; LANES]), (&bounds, &rows.modes), None);
                 for i in (0..LANES).filter(|i| reached[*i] > 0.0) {
