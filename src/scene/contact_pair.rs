@@ -101,14 +101,6 @@ impl ContactPair {
         }
     }
 
-    /// The same, to be changed.
-    pub const fn position_mut(&mut self) -> Option<&mut f64> {
-        match (&mut self.left, &mut self.right) {
-            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
-            _ => None,
-        }
-    }
-
     /// Whose columns of which storey, counted from 1, are hit, if any are.
     pub const fn columns(&self) -> Option<(Side, usize)> {
         match (self.left, self.right) {
