@@ -6,12 +6,13 @@ use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
 use super::link::Link;
-use super::place::Place;
+use super::place::{Place, Share};
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
 use crate::contact::ImpactLaw;
 use std::collections::HashMap;
+use std::fmt::Display;
 
 impl Scene {
     /// Checks every number again, as after a parameter has been changed through the FMI.
@@ -26,7 +27,7 @@ impl Scene {
     /// What [`Scene::check`] finds about the numbers of a contact together: where its floors are at the start.
     pub(crate) fn problems_of_overlap(&self, contact: usize) -> Vec<Problem> {
         let mut check = Checker::new(self.units);
-        check.no_overlap(&format!("contact[{}]", contact + 1), &self.contacts[contact], self);
+        check.no_overlap(format_args!("contact[{}]", contact + 1), &self.contacts[contact], self);
         check.problems
     }
 
@@ -181,7 +182,7 @@ impl Checker {
     }
 
     /// Floors that cannot overlap cannot begin so, but for the rounding of the numbers that say where they are.
-    fn no_overlap(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
+    fn no_overlap(&mut self, path: impl Display, pair: &ContactPair, scene: &Scene) {
         if !pair.law.is_rigid() {
             return;
         }
@@ -206,11 +207,11 @@ impl Checker {
             }
             Face::Wall => return,
         };
-        self.floor(path, (side, number, what), scene);
+        self.floor(path, side, number, what, scene);
     }
 
-    /// Whether a building has that floor or storey, counted from 1.
-    fn floor(&mut self, path: &str, (side, number, what): (Side, usize, &str), scene: &Scene) {
+    /// Whether a building has that floor or storey, counted from 1; `what` says which of both it is.
+    fn floor(&mut self, path: &str, side: Side, number: usize, what: &str, scene: &Scene) {
         let floors = scene.building(side).mass.len();
         if number >= 1 && (floors == 0 || number <= floors) {
             return;
@@ -236,9 +237,9 @@ impl Checker {
     }
 
     fn link(&mut self, path: &str, link: &Link, scene: &Scene) {
-        for (side, place, _) in link.ends() {
+        for Share { side, place, .. } in link.ends() {
             match place {
-                Place::Floor(floor) => self.floor(path, (side, floor + 1, "floor"), scene),
+                Place::Floor(floor) => self.floor(path, side, floor + 1, "floor", scene),
                 Place::Foundation | Place::Rotation => self.held_foundation(path, side, scene),
             }
         }

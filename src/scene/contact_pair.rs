@@ -1,6 +1,5 @@
 //! What meets at a contact: a floor of one building with a floor or the columns of the other, or with a wall.
 
-use super::place::Place;
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
@@ -48,17 +47,6 @@ pub enum ColumnShape {
     Fixed,
     /// Hinged ends, N(s) = s.
     Straight,
-}
-
-/// How much a displacement of a building moves a face, or the distance of two: its weight in a row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
-    /// Whose displacement.
-    pub side: Side,
-    /// That of a floor, unless a building on soil has columns that are hit.
-    pub place: Place,
-    /// Positive on the left of a gap, negative on its right.
-    pub weight: f64,
 }
 
 impl ColumnShape {
