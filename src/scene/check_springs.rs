@@ -20,7 +20,7 @@ impl Checker {
                 let expected = "a stiffness > 0, that of the spring that slips";
                 self.refuse(format_args!("link[{}].stiffness", l + 1), number(link.stiffness), expected);
             }
-            self.spring(format_args!("link[{}].stiffness", l + 1), link.stiffness, (softest, "N/m"));
+            self.spring(format_args!("link[{}].stiffness", l + 1), link.stiffness, softest, "N/m");
         }
         for (side, building) in [("left", &scene.left), ("right", &scene.right)] {
             let Some(foundation) = &building.foundation else { continue };
@@ -30,12 +30,13 @@ impl Checker {
             for (soil, way, lever, unit) in soils {
                 let Some(soil) = soil else { continue };
                 let path = format_args!("{side}.foundation.{way}.stiffness");
-                self.spring(path, soil.stiffness, (softest * lever, unit));
+                self.spring(path, soil.stiffness, softest * lever, unit);
             }
         }
     }
 
-    fn spring(&mut self, path: impl Display, stiffness: f64, (softest, unit): (f64, &str)) {
+    /// A spring that is compared with the softest storey, in the SI unit of both.
+    fn spring(&mut self, path: impl Display, stiffness: f64, softest: f64, unit: &str) {
         // A NaN, and what is infinite, has been refused as what it is.
         if stiffness > MOST * softest && stiffness.is_finite() && softest > 0.0 {
             let (found, most) = (self.six_digits(stiffness), self.six_digits(MOST * softest));
