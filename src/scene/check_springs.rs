@@ -12,7 +12,8 @@ use std::fmt::Display;
 const MOST: f64 = 1e12;
 
 impl Checker {
-    /// Whether what slips is a spring, and links and soil are no more than [`MOST`] times as stiff as the softest storey.
+    /// Whether what slips has a spring, and none of links and soil is more than [`MOST`] times as stiff as the softest
+    /// storey.
     pub(super) fn springs(&mut self, scene: &Scene) {
         let softest = softest(&scene.left).min(softest(&scene.right));
         for (l, link) in scene.links.iter().enumerate() {

@@ -23,9 +23,9 @@ struct Faced {
 }
 
 impl Facing {
-    /// One contact for every floor of either building that faces the other one: with a floor whose level differs by no more
-    /// than the tolerance, else with the columns of the storey that it stands before. Floors above the other building's roof,
-    /// or not above its ground floor, face nothing. From the lowest level up.
+    /// One contact for every floor of either building that faces the other one: with a floor whose level differs by no
+    /// more than the tolerance, else with the columns of the storey that it stands before. Floors above the other
+    /// building's roof, or not above its ground floor, face nothing. From the lowest level up.
     pub(super) fn contacts(&self, [left, right]: [&Heights; 2]) -> Vec<ContactPair> {
         let mut faces: Vec<(f64, [Face; 2])> = Vec::new();
         for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {

@@ -29,7 +29,8 @@ pub struct Slip {
 }
 
 impl Link {
-    /// Its ends on buildings, with their weights in e = u_left - u_right, which is positive when the ends have come nearer.
+    /// Its ends on buildings, with their weights in e = u_left - u_right, which is positive when the ends have come
+    /// nearer.
     pub fn ends(&self) -> impl Iterator<Item = Share> + Clone + use<> {
         let left = self.left.map(|place| Share { side: Side::Left, place, weight: 1.0 });
         left.into_iter().chain(self.right.map(|place| Share { side: Side::Right, place, weight: -1.0 }))

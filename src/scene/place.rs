@@ -13,7 +13,8 @@ pub enum Place {
     Rotation,
 }
 
-/// How much a displacement of a building moves one side of a contact or a link, or the distance of both: its weight in a row.
+/// How much a displacement of a building moves one side of a contact or a link, or the distance of both sides: its
+/// weight in a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
     /// Whose displacement.

@@ -4,8 +4,8 @@ use super::slot::Parameter;
 use crate::engine::Side;
 use crate::scene::{Building, Damping, Face, Foundation, FoundationKey as Key, Scaling, Scene, Stiffness};
 
-/// One match for reading and for writing: `$building` takes a building of the scene, `$as_ref` what is in an `Option`, and `$mut` is
-/// `mut` where the number is to be changed, nothing where it is read.
+/// One match for reading and for writing: `$building` takes a building of the scene, `$as_ref` what is in an `Option`,
+/// and `$mut` is `mut` where the number is to be changed, nothing where it is read.
 macro_rules! number {
     ($scene:ident, $parameter:ident, $building:expr, $as_ref:ident $(, $mut:tt)?) => {
         match $parameter {

@@ -77,8 +77,9 @@ impl Settings {
         }
     }
 
-    /// Sets parameters, each a row with a value of its type: all of them, or none where anything is wrong. Only the rules are asked
-    /// that these parameters can break, and none about gravity, which may still come right: that is for [`Settings::check`].
+    /// Sets parameters, each a row with a value of its type: all of them, or none where anything is wrong. Only the
+    /// rules are asked that these parameters can break, and none about gravity, which may still come right: those are
+    /// for [`Settings::check`].
     ///
     /// # Errors
     /// All that is wrong with these values, at once: in the words of the scene, under the names of the variables.

@@ -56,8 +56,8 @@ pub struct Row {
     pub description: String,
 }
 
-/// What has to hold of several parameters together, and is asked again when one of them is set. Rules about gravity are not: a
-/// master may set a weight first and then the stiffness that carries it.
+/// What has to hold of several parameters together, and is asked again when one of them is set. Rules about gravity are
+/// not: a master may set a weight first and then the stiffness that carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SharedRule {
     /// The record can be scaled so.

@@ -155,8 +155,8 @@ pub(super) fn mean_mass(building: &Building) -> f64 {
     building.mass.iter().sum::<f64>() / building.mass.len().max(1) as f64
 }
 
-/// What an odd number in a scene in these units may have been given in, where that number is odd in units of the kind `odd`; `si` is
-/// its unit in the SI.
+/// What a number of a scene in these units may have been given in, if it looks odd in the units `odd`; `si` is its unit in
+/// the SI.
 pub(super) fn was_given(units: Units, odd: Units, si: &str) -> String {
     let meant = if odd == Units::Si { Units::KilonewtonTonne } else { Units::Si };
     if units == odd {

@@ -6,7 +6,8 @@ use pounding::variables::{Parameter, Row, Settings, Slot, Table, Type, Value};
 
 /// Rigid floors and columns: some nearly touch at the start.
 const RIGID: &str = "name = \"Rigid\"\n\
-    [left]\nmass = [3.0, 2.0]\nstiffness = [2e3, 1e3]\ndamping = { ratio = 0.02 }\ninitial_displacement = [0.009, 0.01]\n\
+    [left]\nmass = [3.0, 2.0]\nstiffness = [2e3, 1e3]\ndamping = { ratio = 0.02 }\n\
+    initial_displacement = [0.009, 0.01]\n\
     [right]\nmass = [3.0, 2.0]\nstiffness = [2e3, 1e3]\ndamping = { ratio = 0.02 }\n\
     [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.01\nlaw = \"stereomechanical\"\nrestitution = 0\n\
     [[contact]]\nleft_storey = 2\nleft_position = 0.5\nright_floor = 2\ngap = 0.0096\nlaw = \"stereomechanical\"\n\
