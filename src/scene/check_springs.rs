@@ -15,6 +15,9 @@ impl Checker {
     /// Whether what slips has a spring, and none of links and soil is more than [`MOST`] times as stiff as the softest
     /// storey.
     pub(super) fn springs(&mut self, scene: &Scene) {
+        if scene.links.is_empty() && scene.left.foundation.is_none() && scene.right.foundation.is_none() {
+            return;
+        }
         let softest = softest(&scene.left).min(softest(&scene.right));
         for (l, link) in scene.links.iter().enumerate() {
             if link.slip.is_some() && link.stiffness == 0.0 {
