@@ -35,7 +35,7 @@ impl Table {
         rows.add(Parameter::LinkPostYieldRatio(l), "post_yield_ratio", scale, about).under(rule::POST_YIELD_RATIO);
     }
 
-    pub(super) fn add_link_outputs(&mut self, (l, link): (usize, &Link), scene: &Scene, meeting: &str) {
+    pub(super) fn add_link_outputs(&mut self, l: usize, link: &Link, scene: &Scene, meeting: &str) {
         use LinkOutput as L;
         let slips = link.slip.is_some();
         let force = link.slip.map_or(link.stiffness * DISPLACEMENT + link.dashpot * VELOCITY, |slip| slip.force);

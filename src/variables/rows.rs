@@ -50,7 +50,7 @@ impl Table {
         }
         for (l, link) in scene.links.iter().enumerate() {
             table.add_link(l, link, &link.meeting(scene));
-            table.add_link_outputs((l, link), scene, &link.meeting(scene));
+            table.add_link_outputs(l, link, scene, &link.meeting(scene));
         }
         let has_foundation = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
         if has_foundation || !scene.links.is_empty() {
