@@ -1,5 +1,5 @@
 //! No memory is asked for once a run has started, and a description of tall buildings asks for little, as it lists no more
-//! than what depends on each other.
+//! than what depends on each other; so does a parameter that is set.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
@@ -8,6 +8,8 @@ use common::{Run, record, scene};
 use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::engine::{PointRates, Side};
+use pounding::slave::{Interface, Log, Slave};
+use pounding::variables::{Settings, Slot, Table, Value};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -136,15 +138,18 @@ fn many_modes_and_coupled_modes_allocate_nothing_either() {
     }
 }
 
-/// How often memory is asked for to describe two buildings of that many floors, all of which may collide.
-fn calls_of_a_description(floors: usize, law: &str) -> usize {
+/// Two buildings of that many floors, all of which may collide.
+fn facing(floors: usize, law: &str) -> String {
     let building =
         format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.02 }}", vec![1e5; floors], vec![1e9; floors]);
     let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.1\n{law}\n");
     let contacts: String = (1..=floors).map(contact).collect();
-    let text =
-        format!("name = \"T\"\n[inputs]\nfloor_forces = true\n[left]\n{building}\n[right]\n{building}\n{contacts}");
-    let package = Package::from_scene_text(text, ".".as_ref()).unwrap();
+    format!("name = \"T\"\n[inputs]\nfloor_forces = true\n[left]\n{building}\n[right]\n{building}\n{contacts}")
+}
+
+/// How often memory is asked for to describe them.
+fn calls_of_a_description(floors: usize, law: &str) -> usize {
+    let package = Package::from_scene_text(facing(floors, law), ".".as_ref()).unwrap();
     let before = CALLS.get();
     let description = package.model_description(FmiVersion::V2);
     let calls = CALLS.get() - before;
@@ -159,4 +164,34 @@ fn describing_twice_the_floors_takes_twice_the_work() {
         let [low, tall] = [15, 30].map(|floors| calls_of_a_description(floors, law));
         assert!(tall < 3 * low, "{law}: {low} and {tall} calls");
     }
+}
+
+/// Instances of two such buildings: how often memory is asked for when all numbers are set one after the other.
+fn calls_of_settings(floors: usize) -> usize {
+    let package = Package::from_scene_text(facing(floors, "law = \"hertz\"\nstiffness = 1.0e9"), ".".as_ref()).unwrap();
+    let table = Table::of_fmu(&package.scene);
+    let settings = Settings::new(package.scene.clone(), None);
+    let numbers: Vec<(u32, f64)> = table
+        .iter()
+        .filter_map(|(reference, row)| match row.slot {
+            Slot::Parameter(parameter) => Some((reference, 1.01 * settings.read(parameter).real()?)),
+            _ => None,
+        })
+        .collect();
+    let mut slave = Slave::new(package, Interface::V2, Log::new(FmiVersion::V2, false));
+    let mut set = |(reference, value): (u32, f64)| slave.set(&[reference], |_| Value::Real(value)).unwrap();
+    // The first one takes its own copy of what the scene says.
+    set(numbers[0]);
+    let before = CALLS.get();
+    numbers.iter().for_each(|number| set(*number));
+    let calls = CALLS.get() - before;
+    assert!(calls <= 4 * numbers.len(), "{calls} calls for {} numbers", numbers.len());
+    calls
+}
+
+/// A parameter is set in its place and looked at by its own rule: the others have no part in that.
+#[test]
+fn setting_twice_the_parameters_takes_twice_the_work() {
+    let [low, tall] = [15, 30].map(calls_of_settings);
+    assert!(tall <= 2 * low, "{low} and {tall} calls");
 }

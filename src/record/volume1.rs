@@ -45,7 +45,7 @@ pub(super) fn parse(text: &str, wanted: Option<&Column>) -> Result<Accelerogram,
     let count = head.count(SAMPLES, &mut reading);
     let unit = unit(head, &mut reading);
     let (Some((line, count)), Some(unit)) = (count, unit) else { return Err(reading.stop()) };
-    samples(text, head, (unit, count), &mut reading);
+    samples(text, head, unit, count, &mut reading);
     reading.check_count(line, SAMPLES, count);
     for key in ["RECORD LENGTH", "DURATION"] {
         if let Some((line, duration, _)) = head.quantity(key) {
@@ -94,7 +94,7 @@ fn unit(head: &Header<'_>, reading: &mut Reading) -> Option<Unit> {
 }
 
 /// Reads the samples behind both headers.
-fn samples(text: &str, head: &Header<'_>, (unit, count): (Unit, usize), reading: &mut Reading) {
+fn samples(text: &str, head: &Header<'_>, unit: Unit, count: usize, reading: &mut Reading) {
     let is_numbers =
         |line: &str| line.trim().contains(' ') && line.chars().all(|c| c.is_ascii_digit() || " -".contains(c));
     let Some(words) = head.lines.iter().position(|(_, line)| is_numbers(line)) else {

@@ -6,12 +6,13 @@ use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
 use super::link::Link;
-use super::place::Place;
+use super::place::{Place, Share};
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
 use crate::contact::ImpactLaw;
 use std::collections::HashMap;
+use std::fmt::Display;
 
 impl Scene {
     /// Checks every number again, as after a parameter has been changed through the FMI.
@@ -22,11 +23,25 @@ impl Scene {
         let problems = problems(self);
         if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
     }
+
+    /// What [`Scene::check`] finds about the numbers of a contact together: where its floors are at the start.
+    pub(crate) fn problems_of_overlap(&self, contact: usize) -> Vec<Problem> {
+        let mut check = Checker::new(self.units);
+        check.no_overlap(format_args!("contact[{}]", contact + 1), &self.contacts[contact], self);
+        check.problems
+    }
+
+    /// What it finds about springs beside each other: those of links, of soil and of storeys.
+    pub(crate) fn problems_of_springs(&self) -> Vec<Problem> {
+        let mut check = Checker::new(self.units);
+        check.springs(self);
+        check.problems
+    }
 }
 
 /// Everything that is wrong with the values of a scene, in the order of the fields.
 pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
-    let mut check = Checker { units: scene.units, ..Checker::default() };
+    let mut check = Checker::new(scene.units);
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
     check.building("left", &scene.left);
@@ -162,14 +177,15 @@ impl Checker {
         self.face(path, pair.left, scene);
         self.face(path, pair.right, scene);
         self.number(format_args!("{path}.gap"), pair.gap, rule::GAP);
-        if pair.law.is_rigid() {
-            self.no_overlap(path, pair, scene);
-        }
+        self.no_overlap(path, pair, scene);
         self.law(path, &pair.law);
     }
 
     /// Floors that cannot overlap cannot begin so, but for the rounding of the numbers that say where they are.
-    fn no_overlap(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
+    fn no_overlap(&mut self, path: impl Display, pair: &ContactPair, scene: &Scene) {
+        if !pair.law.is_rigid() {
+            return;
+        }
         let (overlap, size) = pair.at_start(scene);
         if overlap > 4.0 * f64::EPSILON * size {
             let expected = format!(
@@ -191,11 +207,11 @@ impl Checker {
             }
             Face::Wall => return,
         };
-        self.floor(path, (side, number, what), scene);
+        self.floor(path, side, number, what, scene);
     }
 
-    /// Whether a building has that floor or storey, counted from 1.
-    fn floor(&mut self, path: &str, (side, number, what): (Side, usize, &str), scene: &Scene) {
+    /// Whether a building has that floor or storey, counted from 1; `what` says which of both it is.
+    fn floor(&mut self, path: &str, side: Side, number: usize, what: &str, scene: &Scene) {
         let floors = scene.building(side).mass.len();
         if number >= 1 && (floors == 0 || number <= floors) {
             return;
@@ -221,9 +237,9 @@ impl Checker {
     }
 
     fn link(&mut self, path: &str, link: &Link, scene: &Scene) {
-        for (side, place, _) in link.ends() {
+        for Share { side, place, .. } in link.ends() {
             match place {
-                Place::Floor(floor) => self.floor(path, (side, floor + 1, "floor"), scene),
+                Place::Floor(floor) => self.floor(path, side, floor + 1, "floor", scene),
                 Place::Foundation | Place::Rotation => self.held_foundation(path, side, scene),
             }
         }
@@ -232,10 +248,6 @@ impl Checker {
         if let Some(slip) = link.slip {
             self.number(format_args!("{path}.slip_force"), slip.force, rule::SLIP_FORCE);
             self.number(format_args!("{path}.post_yield_ratio"), slip.ratio, rule::POST_YIELD_RATIO);
-            if link.stiffness == 0.0 {
-                let expected = "a stiffness > 0, that of the spring that slips";
-                self.refuse(format_args!("{path}.stiffness"), problem::number(link.stiffness), expected);
-            }
         }
     }
 

@@ -1,21 +1,30 @@
-//! Springs of links and soil beside which nothing would be left of the storeys.
+//! Springs of links and soil: what slips has one, and beside all of them something is left of the storeys.
 //!
 //! Entries of a body's stiffness matrix are sums of its springs: one that is 1e16 times as stiff as a storey leaves no digit
 //! of that. At the limit here frequencies are exact to rounding (`tests/physics/soil/closed_forms.rs`).
 
 use super::checker::Checker;
 use super::data::{Building, Scene, Stiffness};
+use super::problem::number;
 use std::fmt::Display;
 
 /// Largest stiffness of a link or of soil, relative to that of the softest storey.
 const MOST: f64 = 1e12;
 
 impl Checker {
-    /// Whether links and soil are no more than [`MOST`] times as stiff as the softest storey.
+    /// Whether what slips has a spring, and none of links and soil is more than [`MOST`] times as stiff as the softest
+    /// storey.
     pub(super) fn springs(&mut self, scene: &Scene) {
+        if scene.links.is_empty() && scene.left.foundation.is_none() && scene.right.foundation.is_none() {
+            return;
+        }
         let softest = softest(&scene.left).min(softest(&scene.right));
         for (l, link) in scene.links.iter().enumerate() {
-            self.spring(format_args!("link[{}].stiffness", l + 1), link.stiffness, (softest, "N/m"));
+            if link.slip.is_some() && link.stiffness == 0.0 {
+                let expected = "a stiffness > 0, that of the spring that slips";
+                self.refuse(format_args!("link[{}].stiffness", l + 1), number(link.stiffness), expected);
+            }
+            self.spring(format_args!("link[{}].stiffness", l + 1), link.stiffness, softest, "N/m");
         }
         for (side, building) in [("left", &scene.left), ("right", &scene.right)] {
             let Some(foundation) = &building.foundation else { continue };
@@ -23,13 +32,15 @@ impl Checker {
             let soils =
                 [(foundation.sway, "sway", 1.0, "N/m"), (foundation.rocking, "rocking", height * height, "N m/rad")];
             for (soil, way, lever, unit) in soils {
-                let path = format!("{side}.foundation.{way}.stiffness");
-                soil.inspect(|soil| self.spring(path, soil.stiffness, (softest * lever, unit)));
+                let Some(soil) = soil else { continue };
+                let path = format_args!("{side}.foundation.{way}.stiffness");
+                self.spring(path, soil.stiffness, softest * lever, unit);
             }
         }
     }
 
-    fn spring(&mut self, path: impl Display, stiffness: f64, (softest, unit): (f64, &str)) {
+    /// A spring that is compared with the softest storey, in the SI unit of both.
+    fn spring(&mut self, path: impl Display, stiffness: f64, softest: f64, unit: &str) {
         // A NaN, and what is infinite, has been refused as what it is.
         if stiffness > MOST * softest && stiffness.is_finite() && softest > 0.0 {
             let (found, most) = (self.six_digits(stiffness), self.six_digits(MOST * softest));

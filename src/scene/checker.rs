@@ -6,7 +6,6 @@ use super::units::Units;
 use std::fmt::Display;
 
 /// What has been found so far.
-#[derive(Default)]
 pub(super) struct Checker {
     /// Those of the file, in which messages show masses and forces.
     pub units: Units,
@@ -14,6 +13,10 @@ pub(super) struct Checker {
 }
 
 impl Checker {
+    pub(super) fn new(units: Units) -> Checker {
+        Checker { units, problems: Vec::new() }
+    }
+
     pub(super) fn refuse(&mut self, path: impl Display, found: impl Into<String>, expected: impl Into<String>) {
         self.problems.push(Problem::new(path.to_string(), found, expected));
     }

@@ -1,6 +1,5 @@
 //! What meets at a contact: a floor of one building with a floor or the columns of the other, or with a wall.
 
-use super::place::Place;
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
@@ -50,17 +49,6 @@ pub enum ColumnShape {
     Straight,
 }
 
-/// How much a displacement of a building moves a face, or the distance of two: its weight in a row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
-    /// Whose displacement.
-    pub side: Side,
-    /// That of a floor, unless a building on soil has columns that are hit.
-    pub place: Place,
-    /// Positive on the left of a gap, negative on its right.
-    pub weight: f64,
-}
-
 impl ColumnShape {
     /// All that there are.
     pub const ALL: [ColumnShape; 2] = [ColumnShape::Fixed, ColumnShape::Straight];
@@ -96,14 +84,6 @@ impl ContactPair {
     /// Where columns are hit, if they are.
     pub const fn position(&self) -> Option<f64> {
         match (self.left, self.right) {
-            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
-            _ => None,
-        }
-    }
-
-    /// The same, to be changed.
-    pub const fn position_mut(&mut self) -> Option<&mut f64> {
-        match (&mut self.left, &mut self.right) {
             (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
             _ => None,
         }

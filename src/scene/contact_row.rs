@@ -1,8 +1,8 @@
 //! The row of a contact: by how much displacements of buildings close its gap.
 
-use super::contact_pair::{ContactPair, Face, Share};
+use super::contact_pair::{ContactPair, Face};
 use super::data::Scene;
-use super::place::Place;
+use super::place::{Place, Share};
 use super::places::Places;
 use super::side::Side;
 

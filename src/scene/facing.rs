@@ -5,47 +5,56 @@ use super::levels::{Heights, ROUNDING};
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
-/// One contact for every floor of either building that faces the other one: with a floor whose level differs by no more
-/// than the tolerance, else with the columns of the storey that it stands before. Floors above the other building's roof,
-/// or not above its ground floor, face nothing. From the lowest level up.
-pub(super) fn contacts(
-    heights: [&Heights; 2],
-    (level_tolerance, shape): (f64, ColumnShape),
-    gap: f64,
-    law: ImpactLaw,
-) -> Vec<ContactPair> {
-    let mut faces: Vec<(f64, [Face; 2])> = Vec::new();
-    for (side, own, other) in [(Side::Left, heights[0], heights[1]), (Side::Right, heights[1], heights[0])] {
-        for floor in 1..=own.storeys.len() {
-            let level = own.level(floor);
-            let Some((opposite, lower)) = opposite((side.opposite(), other), level, (level_tolerance, shape)) else {
-                continue;
-            };
-            let floor = Face::Floor(side, floor);
-            let pair = match side {
-                Side::Left => [floor, opposite],
-                Side::Right => [opposite, floor],
-            };
-            if !faces.iter().any(|(_, known)| *known == pair) {
-                faces.push((lower, pair));
-            }
-        }
-    }
-    faces.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    faces.into_iter().map(|(_, [left, right])| ContactPair { left, right, gap, law }).collect()
+/// The keys of `[facing]`: what all contacts have that it makes.
+pub(super) struct Facing {
+    /// m, by which floors that meet may differ in level.
+    pub level_tolerance: f64,
+    pub column_shape: ColumnShape,
+    /// m.
+    pub gap: f64,
+    pub law: ImpactLaw,
 }
 
-/// What of a building a floor of that level faces, and the lower one of both levels.
-fn opposite(
-    (side, building): (Side, &Heights),
+/// What a floor faces.
+struct Faced {
+    face: Face,
+    /// m, the lower one of both levels.
     level: f64,
-    (tolerance, shape): (f64, ColumnShape),
-) -> Option<(Face, f64)> {
-    if let Some((floor, apart)) = building.nearest_floor(level)
-        && apart <= tolerance + ROUNDING
-    {
-        return Some((Face::Floor(side, floor), level.min(building.level(floor))));
+}
+
+impl Facing {
+    /// One contact for every floor of either building that faces the other one: with a floor whose level differs by no
+    /// more than the tolerance, else with the columns of the storey that it stands before. Floors above the other
+    /// building's roof, or not above its ground floor, face nothing. From the lowest level up.
+    pub(super) fn contacts(&self, [left, right]: [&Heights; 2]) -> Vec<ContactPair> {
+        let mut faces: Vec<(f64, [Face; 2])> = Vec::new();
+        for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {
+            for floor in 1..=own.storeys.len() {
+                let Some(opposite) = self.opposite(side, own.level(floor), other) else { continue };
+                let floor = Face::Floor(side, floor);
+                let pair = match side {
+                    Side::Left => [floor, opposite.face],
+                    Side::Right => [opposite.face, floor],
+                };
+                if !faces.iter().any(|(_, known)| *known == pair) {
+                    faces.push((opposite.level, pair));
+                }
+            }
+        }
+        faces.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let (gap, law) = (self.gap, self.law);
+        faces.into_iter().map(|(_, [left, right])| ContactPair { left, right, gap, law }).collect()
     }
-    let (storey, position) = building.storey_at(level)?;
-    Some((Face::Columns { side, storey, position, shape }, level))
+
+    /// What of the other building a floor of that side and level faces.
+    fn opposite(&self, side: Side, level: f64, other: &Heights) -> Option<Faced> {
+        let side = side.opposite();
+        if let Some((floor, apart)) = other.nearest_floor(level)
+            && apart <= self.level_tolerance + ROUNDING
+        {
+            return Some(Faced { face: Face::Floor(side, floor), level: level.min(other.level(floor)) });
+        }
+        let (storey, position) = other.storey_at(level)?;
+        Some(Faced { face: Face::Columns { side, storey, position, shape: self.column_shape }, level })
+    }
 }

@@ -56,27 +56,3 @@ impl FoundationKey {
         }
     }
 }
-
-impl Foundation {
-    /// A number; `None` where the foundation does not move so.
-    pub fn get(&self, key: FoundationKey) -> Option<f64> {
-        self.clone().number(key).copied()
-    }
-
-    /// Sets a number that the foundation has.
-    pub fn set(&mut self, key: FoundationKey, value: f64) {
-        self.number(key).into_iter().for_each(|number| *number = value);
-    }
-
-    fn number(&mut self, key: FoundationKey) -> Option<&mut f64> {
-        let Foundation { mass, inertia, sway, rocking } = self;
-        match key {
-            FoundationKey::Mass => Some(mass),
-            FoundationKey::Inertia => rocking.as_ref().map(|_| inertia),
-            FoundationKey::SwayStiffness => sway.as_mut().map(|soil| &mut soil.stiffness),
-            FoundationKey::SwayDashpot => sway.as_mut().map(|soil| &mut soil.dashpot),
-            FoundationKey::RockingStiffness => rocking.as_mut().map(|soil| &mut soil.stiffness),
-            FoundationKey::RockingDashpot => rocking.as_mut().map(|soil| &mut soil.dashpot),
-        }
-    }
-}

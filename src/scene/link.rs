@@ -1,6 +1,6 @@
 //! A device between two floors, or between a floor and the ground.
 
-use super::place::Place;
+use super::place::{Place, Share};
 use super::side::Side;
 
 /// A link as a scene has it: a spring and a dashpot side by side. Its ends are floors or foundations. A scene's file has
@@ -29,11 +29,11 @@ pub struct Slip {
 }
 
 impl Link {
-    /// Its ends on buildings, with the weights of their displacements in e = u_left - u_right, which is positive when the ends have come
+    /// Its ends on buildings, with their weights in e = u_left - u_right, which is positive when the ends have come
     /// nearer.
-    pub fn ends(&self) -> impl Iterator<Item = (Side, Place, f64)> + Clone + use<> {
-        let left = self.left.map(|place| (Side::Left, place, 1.0));
-        left.into_iter().chain(self.right.map(|place| (Side::Right, place, -1.0)))
+    pub fn ends(&self) -> impl Iterator<Item = Share> + Clone + use<> {
+        let left = self.left.map(|place| Share { side: Side::Left, place, weight: 1.0 });
+        left.into_iter().chain(self.right.map(|place| Share { side: Side::Right, place, weight: -1.0 }))
     }
 
     /// Whether it is between the buildings.

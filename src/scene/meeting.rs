@@ -1,9 +1,9 @@
 //! A contact in its scene: its reduced mass, how far it is open at the start, and what it is called. A link: its name.
 
-use super::contact_pair::{ContactPair, Face, Share};
+use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Scene};
 use super::link::Link;
-use super::place::Place;
+use super::place::{Place, Share};
 use super::side::Side;
 use crate::figures::six_decimals;
 

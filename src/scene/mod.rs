@@ -94,7 +94,7 @@ mod side;
 mod syntax;
 mod units;
 
-pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
+pub use contact_pair::{ColumnShape, ContactPair, Face};
 pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
@@ -103,7 +103,7 @@ pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
 pub use lines::lines;
 pub use link::{Link, Slip};
 pub use p_delta::NetStorey;
-pub use place::Place;
+pub use place::{Place, Share};
 pub use places::Places;
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};

@@ -1,4 +1,6 @@
-//! Which displacement of a building is meant.
+//! Which displacement of a building is meant, and how much of it counts.
+
+use super::side::Side;
 
 /// A displacement of a building: of one of its floors, or of its foundation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -9,6 +11,18 @@ pub enum Place {
     Foundation,
     /// The rotation of the foundation.
     Rotation,
+}
+
+/// How much a displacement of a building moves one side of a contact or a link, or the distance of both sides: its
+/// weight in a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// Whose displacement.
+    pub side: Side,
+    /// That of a floor, but where a building on soil has columns that are hit, or a link holds its foundation.
+    pub place: Place,
+    /// Positive on the left, negative on the right.
+    pub weight: f64,
 }
 
 impl Place {

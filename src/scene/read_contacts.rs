@@ -3,10 +3,11 @@
 use super::contact_pair::{ColumnShape, ContactPair, Face};
 use super::data::Building;
 use super::document::{Item, KEY, Section};
+use super::facing::Facing;
+use super::law_key;
 use super::levels::{Heights, LEVEL_TOLERANCE};
 use super::side::Side;
 use super::units::Units;
-use super::{facing, law_key};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use crate::figures::six_decimals;
 
@@ -17,24 +18,23 @@ pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Unit
     let tables = root.get("contact");
     if let Some(facing) = root.get("facing") {
         tables.inspect(|item| item.refuse("either [[contact]] tables or [facing], not both"));
-        let mut section = facing.section();
-        let tolerance = section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number());
-        return (self::facing(root, section, tolerance, buildings, units), Some(tolerance));
+        let facing = self::facing(facing.section(), units);
+        return (facing_contacts(root, &facing, buildings), Some(facing.level_tolerance));
     }
     let tables = tables.iter().flat_map(|item| item.tables("contact"));
     (tables.map(|section| contact(section, buildings, units)).collect(), None)
 }
 
-fn facing(
-    root: &mut Section<'_>,
-    mut section: Section<'_>,
-    tolerance: f64,
-    buildings: [&Building; 2],
-    units: Units,
-) -> Vec<ContactPair> {
-    let shape = section.get("column_shape").and_then(|item| column_shape(&item)).unwrap_or_default();
-    let gap = gap(&mut section);
-    let law = law(section, units);
+fn facing(mut section: Section<'_>, units: Units) -> Facing {
+    Facing {
+        level_tolerance: section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number()),
+        column_shape: section.get("column_shape").and_then(|item| column_shape(&item)).unwrap_or_default(),
+        gap: gap(&mut section),
+        law: law(section, units),
+    }
+}
+
+fn facing_contacts(root: &mut Section<'_>, facing: &Facing, buildings: [&Building; 2]) -> Vec<ContactPair> {
     let heights = Side::BOTH.map(|side| {
         let building = buildings[side as usize];
         if building.heights.is_none() && !building.is_absent() {
@@ -44,7 +44,7 @@ fn facing(
         building.heights.as_ref().filter(|heights| heights.are_of(building.mass.len()))
     });
     match heights {
-        [Some(left), Some(right)] => facing::contacts([left, right], (tolerance, shape), gap, law),
+        [Some(left), Some(right)] => facing.contacts([left, right]),
         _ => Vec::new(),
     }
 }
@@ -94,8 +94,7 @@ fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] 
     let floors = Side::BOTH.map(|side| if has_columns(side as usize) { 0 } else { floor(section, &keys, side) });
     Side::BOTH.map(|side| match &keys.storeys[side as usize] {
         Some(storey) if has_columns(side as usize) => {
-            let opposite = side.opposite();
-            columns(section, &keys, (side, storey), (opposite, floors[opposite as usize]), buildings)
+            columns(section, &keys, side, storey, floors[side.opposite() as usize], buildings)
         }
         storey => {
             storey.as_ref().inspect(|item| item.refuse(format!("either {side}_floor or {side}_storey, not both")));
@@ -155,20 +154,21 @@ fn at_wall(section: &Section<'_>, keys: &Keys<'_>, wall: &Item<'_>) -> [Face; 2]
     }
 }
 
-/// The columns of a storey that a floor of the other building meets.
+/// The columns of a storey on one side, which a floor of the other building meets.
 fn columns(
     section: &Section<'_>,
     keys: &Keys<'_>,
-    (side, storey): (Side, &Item<'_>),
-    (floor_side, floor): (Side, usize),
+    side: Side,
+    storey: &Item<'_>,
+    floor: usize,
     buildings: [&Building; 2],
 ) -> Face {
     let number = storey.count();
     let shape = keys.shape.as_ref().and_then(column_shape).unwrap_or_default();
-    let heights = [side, floor_side].map(|side| buildings[side as usize].heights.as_ref());
+    let heights = [side, side.opposite()].map(|side| buildings[side as usize].heights.as_ref());
     let position = match (&keys.positions[side as usize], heights) {
         (Some(position), _) => Some(position.number()),
-        (None, [Some(own), Some(other)]) => position_by_levels(storey, number, (side, own), (floor_side, floor, other)),
+        (None, [Some(own), Some(other)]) => position_by_levels(storey, number, side, floor, [own, other]),
         (None, _) => {
             let what = "where the columns are hit, 0 < s < 1 from the storey's lower end; only where both buildings have \
                         their height it may be left out";
@@ -185,12 +185,13 @@ fn column_shape(item: &Item<'_>) -> Option<ColumnShape> {
     item.choice("a known shape", &ColumnShape::ALL.map(ColumnShape::name), of_name)
 }
 
-/// The position of a floor in a storey of the other building by their levels; refused where it is outside.
+/// Where a storey on one side is hit by a floor of the other building, by the heights of both; refused where it is not.
 fn position_by_levels(
     item: &Item<'_>,
     storey: usize,
-    (side, own): (Side, &Heights),
-    (floor_side, floor, other): (Side, usize, &Heights),
+    side: Side,
+    floor: usize,
+    [own, other]: [&Heights; 2],
 ) -> Option<f64> {
     // Numbers out of range are refused where the others of their kind are.
     let level = (1..=other.storeys.len()).contains(&floor).then(|| other.level(floor))?;
@@ -204,7 +205,8 @@ fn position_by_levels(
         _ => format!("is not between {side} floors"),
     };
     item.refuse(format!(
-        "a storey that {floor_side} floor {floor} stands before, or {side}_position: its level, {} m, {hits}",
+        "a storey that {} floor {floor} stands before, or {side}_position: its level, {} m, {hits}",
+        side.opposite(),
         six_decimals(level)
     ));
     None

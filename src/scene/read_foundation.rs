@@ -25,7 +25,7 @@ fn foundation(mut section: Section<'_>, units: Units) -> Foundation {
         }
         _ => {}
     }
-    let of = |item: Option<Item<'_>>, unit: &str| item.map(|item| soil(item.section(), (units, unit)));
+    let of = |item: Option<Item<'_>>, unit: &str| item.map(|item| soil(item.section(), units, unit));
     let foundation = Foundation {
         mass: quantity(mass, units),
         inertia: quantity(inertia, units),
@@ -36,7 +36,8 @@ fn foundation(mut section: Section<'_>, units: Units) -> Foundation {
     foundation
 }
 
-fn soil(mut section: Section<'_>, (units, unit): (Units, &str)) -> Soil {
+/// `unit` is that of the stiffness in the SI.
+fn soil(mut section: Section<'_>, units: Units, unit: &str) -> Soil {
     let stiffness = section.require("stiffness", &format!("that of the soil in {}", units.unit(unit)));
     let (stiffness, dashpot) = (quantity(stiffness, units), quantity(section.get("dashpot"), units));
     section.close(KEY);

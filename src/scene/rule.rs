@@ -2,6 +2,14 @@
 
 use super::problem::{Problem, number};
 use super::units::Units;
+use std::ops::{Bound, RangeBounds};
+
+/// From a least to a most number, each of them allowed or not.
+type Limits = (Bound<f64>, Bound<f64>);
+
+const ANY: Limits = (Bound::Unbounded, Bound::Unbounded);
+const ABOVE_0: Limits = (Bound::Excluded(0.0), Bound::Unbounded);
+const FROM_0: Limits = (Bound::Included(0.0), Bound::Unbounded);
 
 /// What one number of a scene must satisfy.
 #[derive(Clone, Copy, Debug)]
@@ -11,20 +19,20 @@ pub struct Rule {
     /// The same where masses are in t and forces in kN, if its unit has one of them.
     in_kn_t: Option<&'static str>,
     /// Of the SI number.
-    holds: fn(f64) -> bool,
+    limits: Limits,
     /// Whether infinity is a number like others.
     takes_infinity: bool,
 }
 
 impl Rule {
     /// Of a number without mass and force in its unit.
-    const fn of(expected: &'static str, holds: fn(f64) -> bool) -> Rule {
-        Rule { expected, in_kn_t: None, holds, takes_infinity: false }
+    const fn of(expected: &'static str, limits: Limits) -> Rule {
+        Rule { expected, in_kn_t: None, limits, takes_infinity: false }
     }
 
     /// Of one with a mass or a force in its unit, in words for either kind of units.
-    const fn of_force(expected: &'static str, in_kn_t: &'static str, holds: fn(f64) -> bool) -> Rule {
-        Rule { expected, in_kn_t: Some(in_kn_t), holds, takes_infinity: false }
+    const fn of_force(expected: &'static str, in_kn_t: &'static str, limits: Limits) -> Rule {
+        Rule { expected, in_kn_t: Some(in_kn_t), limits, takes_infinity: false }
     }
 
     /// The same of a number that may be infinite as well.
@@ -47,7 +55,17 @@ impl Rule {
 
     /// Whether the number is allowed; never so for one that is not finite, unless its rule takes infinity.
     pub fn holds(&self, value: f64) -> bool {
-        (value.is_finite() || self.takes_infinity && value == f64::INFINITY) && (self.holds)(value)
+        (value.is_finite() || self.takes_infinity && value == f64::INFINITY) && self.limits.contains(&value)
+    }
+
+    /// The number that none is below, where there is one.
+    pub fn min(&self) -> Option<f64> {
+        end(self.limits.0)
+    }
+
+    /// The number that none is above, where there is one.
+    pub fn max(&self) -> Option<f64> {
+        end(self.limits.1)
     }
 
     /// The problem with a number found at a path, if there is one.
@@ -69,6 +87,13 @@ impl Rule {
     }
 }
 
+fn end(bound: Bound<f64>) -> Option<f64> {
+    match bound {
+        Bound::Included(end) | Bound::Excluded(end) => Some(end),
+        Bound::Unbounded => None,
+    }
+}
+
 /// m/s2: no ground shakes and no floor is pushed like that, a hundred thousand times the acceleration of free fall. What
 /// shakes beyond is a mistake in a unit, and much further beyond displacements leave no digit for a gap.
 pub const MOST_ACCELERATION: f64 = 1e6;
@@ -83,78 +108,74 @@ pub const MOST_FLOORS: usize = 1000;
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
 
 /// Any finite number: entries of matrices.
-pub const ENTRY: Rule = Rule::of("a finite number", |_| true);
+pub const ENTRY: Rule = Rule::of("a finite number", ANY);
 /// The same where they are stiffnesses or of dashpots.
 pub const FORCE_ENTRY: Rule = Rule { in_kn_t: Some(ENTRY.expected), ..ENTRY };
 /// `stop_time`, s.
-pub const STOP_TIME: Rule = Rule::of("a time > 0 s and at most 1e12 s", |t| t > 0.0 && t <= MOST_TIME);
+pub const STOP_TIME: Rule =
+    Rule::of("a time > 0 s and at most 1e12 s", (Bound::Excluded(0.0), Bound::Included(MOST_TIME)));
 /// `mass`, kg.
-pub const MASS: Rule = Rule::of_force("a finite mass > 0 kg", "a finite mass > 0 t", |m| m > 0.0);
+pub const MASS: Rule = Rule::of_force("a finite mass > 0 kg", "a finite mass > 0 t", ABOVE_0);
 /// `stiffness` of a storey, N/m.
-pub const STOREY_STIFFNESS: Rule =
-    Rule::of_force("a finite stiffness > 0 N/m", "a finite stiffness > 0 kN/m", |k| k > 0.0);
+pub const STOREY_STIFFNESS: Rule = Rule::of_force("a finite stiffness > 0 N/m", "a finite stiffness > 0 kN/m", ABOVE_0);
 /// `inertia` of a foundation, kg m2.
 pub const MOMENT_OF_INERTIA: Rule =
-    Rule::of_force("a finite moment of inertia > 0 kg m2", "a finite moment of inertia > 0 t m2", |inertia| {
-        inertia > 0.0
-    });
+    Rule::of_force("a finite moment of inertia > 0 kg m2", "a finite moment of inertia > 0 t m2", ABOVE_0);
 /// `rocking.stiffness` of a foundation, N m per radian.
 pub const ROCKING_STIFFNESS: Rule =
-    Rule::of_force("a finite stiffness > 0 N m/rad", "a finite stiffness > 0 kN m/rad", |k| k > 0.0);
+    Rule::of_force("a finite stiffness > 0 N m/rad", "a finite stiffness > 0 kN m/rad", ABOVE_0);
 /// `rocking.dashpot` of a foundation, N m s per radian.
 pub const ROCKING_DASHPOT: Rule =
-    Rule::of_force("a finite dashpot >= 0 N m s/rad", "a finite dashpot >= 0 kN m s/rad", |c| c >= 0.0);
+    Rule::of_force("a finite dashpot >= 0 N m s/rad", "a finite dashpot >= 0 kN m s/rad", FROM_0);
 /// `yield_force` of a storey, N; infinite ones are allowed as well, by the file and by the FMU's parameters.
 pub const YIELD_FORCE: Rule = Rule::of_force(
     "a force > 0 N, or inf for a storey that stays elastic",
     "a force > 0 kN, or inf for a storey that stays elastic",
-    |force| force > 0.0,
+    ABOVE_0,
 )
 .or_infinite();
 /// `post_yield_ratio` of a storey or a link.
-pub const POST_YIELD_RATIO: Rule = Rule::of("0 <= r < 1", |ratio| (0.0..1.0).contains(&ratio));
+pub const POST_YIELD_RATIO: Rule = Rule::of("0 <= r < 1", (Bound::Included(0.0), Bound::Excluded(1.0)));
 /// `gravity_load` of a floor, N.
-pub const GRAVITY_LOAD: Rule = Rule::of_force("a finite weight >= 0 N", "a finite weight >= 0 kN", |load| load >= 0.0);
+pub const GRAVITY_LOAD: Rule = Rule::of_force("a finite weight >= 0 N", "a finite weight >= 0 kN", FROM_0);
 /// `collapse_drift_ratio` of a building.
-pub const COLLAPSE_DRIFT_RATIO: Rule = Rule::of("a finite share of the height > 0", |ratio| ratio > 0.0);
+pub const COLLAPSE_DRIFT_RATIO: Rule = Rule::of("a finite share of the height > 0", ABOVE_0);
 /// Every damping ratio, 1 = critical.
-pub const DAMPING_RATIO: Rule = Rule::of("a finite damping ratio >= 0", |ratio| ratio >= 0.0);
+pub const DAMPING_RATIO: Rule = Rule::of("a finite damping ratio >= 0", FROM_0);
 /// `initial_displacement`, m.
-pub const DISPLACEMENT: Rule = Rule::of("a finite displacement in m", |_| true);
+pub const DISPLACEMENT: Rule = Rule::of("a finite displacement in m", ANY);
 /// `initial_velocity`, m/s.
-pub const VELOCITY: Rule = Rule::of("a finite velocity in m/s", |_| true);
+pub const VELOCITY: Rule = Rule::of("a finite velocity in m/s", ANY);
 /// `height` of a storey, m.
-pub const STOREY_HEIGHT: Rule = Rule::of("a finite height > 0 m", |h| h > 0.0);
+pub const STOREY_HEIGHT: Rule = Rule::of("a finite height > 0 m", ABOVE_0);
 /// `base_level`, m.
-pub const LEVEL: Rule = Rule::of("a finite level in m", |_| true);
+pub const LEVEL: Rule = Rule::of("a finite level in m", ANY);
 /// `left_position`, `right_position`: where columns are hit.
-pub const POSITION: Rule = Rule::of("0 < s < 1", |s| s > 0.0 && s < 1.0);
+pub const POSITION: Rule = Rule::of("0 < s < 1", (Bound::Excluded(0.0), Bound::Excluded(1.0)));
 /// `level_tolerance`, m.
-pub const LEVEL_TOLERANCE: Rule = Rule::of("a finite distance >= 0 m", |d| d >= 0.0);
+pub const LEVEL_TOLERANCE: Rule = Rule::of("a finite distance >= 0 m", FROM_0);
 /// `dashpots` of a storey, `dashpot` of a link, N s/m.
-pub const DASHPOT: Rule = Rule::of_force("a finite dashpot >= 0 N s/m", "a finite dashpot >= 0 kN s/m", |c| c >= 0.0);
+pub const DASHPOT: Rule = Rule::of_force("a finite dashpot >= 0 N s/m", "a finite dashpot >= 0 kN s/m", FROM_0);
 /// `stiffness` of a link, N/m.
-pub const LINK_STIFFNESS: Rule =
-    Rule::of_force("a finite stiffness >= 0 N/m", "a finite stiffness >= 0 kN/m", |k| k >= 0.0);
+pub const LINK_STIFFNESS: Rule = Rule::of_force("a finite stiffness >= 0 N/m", "a finite stiffness >= 0 kN/m", FROM_0);
 /// `slip_force` of a link, N.
-pub const SLIP_FORCE: Rule = Rule::of_force("a finite force > 0 N", "a finite force > 0 kN", |force| force > 0.0);
+pub const SLIP_FORCE: Rule = Rule::of_force("a finite force > 0 N", "a finite force > 0 kN", ABOVE_0);
 /// `ground.scale`.
-pub const SCALE: Rule = Rule::of("a finite factor", |_| true);
+pub const SCALE: Rule = Rule::of("a finite factor", ANY);
 /// `ground.pga`, m/s2.
-pub const PGA: Rule = Rule::of("a finite peak acceleration > 0 m/s2", |a| a > 0.0);
+pub const PGA: Rule = Rule::of("a finite peak acceleration > 0 m/s2", ABOVE_0);
 /// `gap`, m: 0 is contact at rest, less is pre-compressed.
-pub const GAP: Rule = Rule::of("a finite distance in m", |_| true);
+pub const GAP: Rule = Rule::of("a finite distance in m", ANY);
 /// `stiffness` of a contact, N/m^exponent.
-pub const CONTACT_STIFFNESS: Rule =
-    Rule::of_force("a finite stiffness > 0", "a finite stiffness > 0 kN/m^n", |k| k > 0.0);
+pub const CONTACT_STIFFNESS: Rule = Rule::of_force("a finite stiffness > 0", "a finite stiffness > 0 kN/m^n", ABOVE_0);
 /// `exponent` of a contact.
-pub const EXPONENT: Rule = Rule::of("1 <= n <= 3", |n| (1.0..=3.0).contains(&n));
+pub const EXPONENT: Rule = Rule::of("1 <= n <= 3", (Bound::Included(1.0), Bound::Included(3.0)));
 /// `restitution` of a contact.
-pub const RESTITUTION: Rule = Rule::of("0 < e <= 1", |e| e > 0.0 && e <= 1.0);
+pub const RESTITUTION: Rule = Rule::of("0 < e <= 1", (Bound::Excluded(0.0), Bound::Included(1.0)));
 /// `restitution` of an instantaneous impact; 0 is a plastic one.
-pub const IMPULSE_RESTITUTION: Rule = Rule::of("0 <= e <= 1", |e| (0.0..=1.0).contains(&e));
+pub const IMPULSE_RESTITUTION: Rule = Rule::of("0 <= e <= 1", (Bound::Included(0.0), Bound::Included(1.0)));
 /// `relative_tolerance`: from rounding errors to a solution that is one in name only.
 pub const RELATIVE_TOLERANCE: Rule =
-    Rule::of("1e-15 < tolerance <= 1e-2", |tolerance| tolerance > 1e-15 && tolerance <= 1e-2);
+    Rule::of("1e-15 < tolerance <= 1e-2", (Bound::Excluded(1e-15), Bound::Included(1e-2)));
 /// `min_approach_velocity`, m/s.
-pub const MIN_APPROACH_VELOCITY: Rule = Rule::of("a finite velocity > 0 m/s", |v| v > 0.0);
+pub const MIN_APPROACH_VELOCITY: Rule = Rule::of("a finite velocity > 0 m/s", ABOVE_0);

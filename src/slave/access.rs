@@ -6,7 +6,6 @@ use super::status::Refusal;
 use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::Input;
-use crate::scene::SceneError;
 use crate::variables::{Calculated, Row, Settings, Slot, Type, Unit, Value};
 use crate::warnings;
 use std::sync::Arc;
@@ -72,21 +71,26 @@ impl Slave {
     /// and parameters that the scene's rules refuse.
     pub fn set<'v>(&mut self, references: &[u32], value: impl Fn(usize) -> Value<'v>) -> Result<(), Refusal> {
         let pairs = || references.iter().enumerate().map(|(i, &reference)| (reference, value(i)));
-        let (mut problems, mut changed) = (Vec::new(), None);
+        let (mut problems, mut parameters) = (Vec::new(), Vec::new());
         for (reference, value) in pairs() {
-            if let Some(problem) = self.refuse(reference, value) {
-                problems.push(problem);
-            } else if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference)
-                && self.takes_parameters()
-            {
-                let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
-                note(settings.write(parameter, value), &mut problems);
+            match (self.refuse(reference, value), self.table.row(reference)) {
+                (Some(problem), _) => problems.push(problem),
+                (None, Some(row @ Row { slot: Slot::Parameter(_), .. })) if self.takes_parameters() => {
+                    parameters.push((row, value));
+                }
+                (None, _) => {}
             }
         }
-        note(changed.as_ref().map_or(Ok(()), Settings::check_one_by_one), &mut problems);
+        if !parameters.is_empty() {
+            // Where other things are wrong, it is only asked what is wrong with these as well.
+            let asked = match problems.is_empty() {
+                true => Arc::make_mut(&mut self.settings).set(&parameters),
+                false => Settings::clone(&self.settings).set(&parameters),
+            };
+            problems.extend(asked.err().into_iter().flat_map(|error| Refusal::from(error).problems));
+        }
         Refusal::unless_empty(problems)?;
-        if let Some(changed) = changed {
-            self.settings = Arc::new(changed);
+        if !parameters.is_empty() {
             self.run.stop();
         }
         for (reference, value) in pairs() {
@@ -155,8 +159,4 @@ impl Slave {
         let (name, ty) = row.unwrap_or(("time", Type::Real(Unit::Second)));
         format!("{name} (value reference {reference}) is {}, not {wanted}", ty.name(version))
     }
-}
-
-fn note(result: Result<(), SceneError>, problems: &mut Vec<String>) {
-    problems.extend(result.err().into_iter().flat_map(|error| Refusal::from(error).problems));
 }

@@ -61,7 +61,7 @@ impl Body {
                 parts.push(BuildingPart { side, floors: first..first + places.floors, places });
                 count += own;
             }
-            let own = links.iter().filter(|link| link.ends().any(|(side, ..)| sides.contains(&side)));
+            let own = links.iter().filter(|link| link.ends().any(|end| sides.contains(&end.side)));
             let own: Vec<&Link> = own.collect();
             let is_linked = !own.is_empty() || sides.iter().any(|side| buildings[*side as usize].foundation.is_some());
             let modes = match is_linked {
@@ -151,7 +151,7 @@ fn linked_modes(
         let part = parts.iter().find(|part| part.side == side)?;
         Some(part.floors.start + part.places.number(place)?)
     };
-    let ends = |link: &Link| link.ends().filter_map(|(side, place, weight)| Some((row_of(side, place)?, weight)));
+    let ends = |link: &Link| link.ends().filter_map(|end| Some((row_of(end.side, end.place)?, end.weight)));
     for (line, link) in (count..).zip(links) {
         ends(link).for_each(|(row, w)| factor[(line, row)] = link.stiffness.sqrt() * w);
     }

@@ -11,7 +11,7 @@ use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use super::motion::{LinearLoad, Motion};
 use super::soil::{self, SoilRows};
-use crate::scene::{Link, Place, Scene, Side, Soil};
+use crate::scene::{Link, Place, Scene, Share, Side, Soil};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -108,7 +108,7 @@ impl Structure {
                     Place::Rotation => self.soil[side as usize].rocking = number,
                     _ => self.soil[side as usize].sway = number,
                 }
-                let end = std::iter::once((side, place, 1.0));
+                let end = std::iter::once(Share { side, place, weight: 1.0 });
                 links.push(LinkRow::of(end, (stiffness, dashpot), &self.bodies, &self.floors));
             }
         }

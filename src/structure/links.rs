@@ -6,7 +6,7 @@
 
 use super::bodies::Body;
 use super::floors::Floors;
-use crate::scene::{Place, Side};
+use crate::scene::Share;
 
 /// A link of a scene, or what the soil resists one motion of a foundation with, in the coordinates of the structure.
 #[derive(Clone, Debug)]
@@ -26,16 +26,16 @@ pub struct LinkRow {
 impl LinkRow {
     /// Of a spring and a dashpot side by side between places of one of the bodies.
     pub(super) fn of(
-        ends: impl Iterator<Item = (Side, Place, f64)> + Clone,
+        ends: impl Iterator<Item = Share> + Clone,
         (stiffness, dashpot): (f64, f64),
         bodies: &[Body],
         floors: &Floors,
     ) -> LinkRow {
-        let is_of = |body: &Body| ends.clone().any(|(side, ..)| body.has(side));
+        let is_of = |body: &Body| ends.clone().any(|end| body.has(end.side));
         let number = bodies.iter().position(is_of).unwrap_or(0);
         let body = &bodies[number];
         let mut row = vec![0.0; floors.mass().len()];
-        for (side, place, weight) in ends.clone() {
+        for Share { side, place, weight } in ends.clone() {
             let Some(at) = body.row_of(side, place) else { continue };
             let shapes = body.modes.shape.row(at);
             row[body.range.clone()].iter_mut().zip(shapes.iter()).for_each(|(row, shape)| *row += weight * shape);
@@ -43,7 +43,7 @@ impl LinkRow {
         LinkRow {
             body: number,
             row,
-            floors: ends.filter_map(|(side, place, w)| Some((floors.lane_of(side, place)?, w))).collect(),
+            floors: ends.filter_map(|end| Some((floors.lane_of(end.side, end.place)?, end.weight))).collect(),
             stiffness,
             dashpot,
         }

@@ -1,8 +1,9 @@
 //! The parameters that a master has changed, as plain data: with them, a scene's settings are made again anywhere.
 
+use super::settings::Settings;
 use super::slot::{Parameter, Slot};
 use super::table::{Table, Type};
-use super::values::{Settings, Value};
+use super::values::Value;
 use crate::record::Record;
 use crate::scene::{Problem, Scaling, SceneError};
 use serde::{Deserialize, Serialize};

@@ -1,11 +1,12 @@
 //! The rows of foundations.
 
+use super::number::number;
 use super::part::{ACCELERATED, DISPLACEMENT, MOVED, MOVING, NEWTON, RATIO, Scale, VELOCITY};
 use super::slot::{Calculated, Parameter};
-use super::table::{Table, Type};
+use super::table::{SharedRule, Table, Type};
 use super::unit::Unit;
 use crate::engine::{FoundationOutput, Output, Side};
-use crate::scene::{Building, FoundationKey, Soil};
+use crate::scene::{FoundationKey, Scene, Soil, rule};
 
 /// Rad and rad/s, at the edge of a foundation of some metres.
 const ROTATION: f64 = 1e-3;
@@ -15,24 +16,39 @@ type OfFoundation = (FoundationOutput, &'static str, Scale, &'static str);
 
 impl Table {
     /// What the foundation of a building has, in the ways in which it moves.
-    pub(super) fn add_foundation(&mut self, building: &Building, side: Side, peaks: bool) {
+    pub(super) fn add_foundation(&mut self, scene: &Scene, side: Side) {
         use FoundationKey as K;
-        let Some(foundation) = &building.foundation else { return };
+        let Some(foundation) = &scene.building(side).foundation else { return };
         let mut rows = self.of_foundation(side);
-        for (key, unit, about) in [
-            (K::Mass, Unit::Kilogram, "mass of the foundation"),
+        for (key, unit, rule, about) in [
+            (K::Mass, Unit::Kilogram, rule::MASS, "mass of the foundation"),
             (
                 K::Inertia,
                 Unit::KilogramMetreSquared,
+                rule::MOMENT_OF_INERTIA,
                 "moment of inertia of foundation and floors about their own centres",
             ),
-            (K::SwayStiffness, Unit::NewtonPerMetre, "stiffness of the soil against sway"),
-            (K::SwayDashpot, Unit::NewtonSecondPerMetre, "dashpot of the soil against sway"),
-            (K::RockingStiffness, Unit::NewtonMetrePerRadian, "stiffness of the soil against rocking"),
-            (K::RockingDashpot, Unit::NewtonMetreSecondPerRadian, "dashpot of the soil against rocking"),
+            (K::SwayStiffness, Unit::NewtonPerMetre, rule::STOREY_STIFFNESS, "stiffness of the soil against sway"),
+            (K::SwayDashpot, Unit::NewtonSecondPerMetre, rule::DASHPOT, "dashpot of the soil against sway"),
+            (
+                K::RockingStiffness,
+                Unit::NewtonMetrePerRadian,
+                rule::ROCKING_STIFFNESS,
+                "stiffness of the soil against rocking",
+            ),
+            (
+                K::RockingDashpot,
+                Unit::NewtonMetreSecondPerRadian,
+                rule::ROCKING_DASHPOT,
+                "dashpot of the soil against rocking",
+            ),
         ] {
-            let Some(value) = foundation.get(key) else { continue };
-            rows.add(Parameter::Foundation(side, key), key.name(), (Type::Real(unit), value), about);
+            let parameter = Parameter::Foundation(side, key);
+            let Some(value) = number(scene, parameter) else { continue };
+            let row = rows.add(parameter, key.name(), (Type::Real(unit), value), about).under(rule);
+            if matches!(key, K::SwayStiffness | K::RockingStiffness) {
+                row.sharing(SharedRule::Springs);
+            }
         }
         let of_sway = foundation.sway.iter().flat_map(|soil| sway(*soil));
         let outputs = of_sway.chain(foundation.rocking.iter().flat_map(|soil| rocking(*soil)));
@@ -41,7 +57,7 @@ impl Table {
                 rows.add(Output::Foundation(side, of), name, scale, about);
                 continue;
             };
-            if peaks {
+            if scene.peaks {
                 let when = "of either sign, between communication points and in impacts too";
                 let about = format!("largest {quantity} of the foundation so far, {when}");
                 rows.add(Output::Foundation(side, of), name, scale, &about);

@@ -44,7 +44,7 @@ impl<'a> InitialDependencies<'a> {
         InitialDependencies {
             scene,
             contacts_of: rows_by_movement(contacts.iter().map(|contact| contact.row.iter().copied())),
-            links_of: rows_by_movement(scene.links.iter().map(|link| link.ends().map(|(side, end, _)| (side, end)))),
+            links_of: rows_by_movement(scene.links.iter().map(|link| link.ends().map(|end| (end.side, end.place)))),
             contacts,
             is_damped: Side::BOTH.map(|side| is_damped(scene.building(side))),
         }
@@ -251,8 +251,8 @@ impl<'a> InitialDependencies<'a> {
     /// Displacement and velocity of a link at the start.
     fn closing(&self, l: usize) -> [f64; 2] {
         let of = |motion: fn(&Building) -> &[f64]| {
-            let at_start = |side, place| Building::at_start(motion(self.scene.building(side)), place);
-            self.scene.links[l].ends().map(|(side, place, weight)| weight * at_start(side, place)).sum()
+            let at_start = |end: Share| Building::at_start(motion(self.scene.building(end.side)), end.place);
+            self.scene.links[l].ends().map(|end| end.weight * at_start(end)).sum()
         };
         [of(|building| &building.initial_displacement), of(|building| &building.initial_velocity)]
     }

@@ -3,10 +3,10 @@
 use super::part::{COUNT, DISPLACEMENT, JOULE, MOVED, MOVING, NEWTON, ONE, POST_YIELD_RATIO, VELOCITY};
 use super::rows::typical_frequency;
 use super::slot::{Calculated, Parameter};
-use super::table::{Table, Type};
+use super::table::{SharedRule, Table, Type};
 use super::unit::Unit;
 use crate::engine::{LinkOutput, Output, PeakOf};
-use crate::scene::{Link, Places, Scene, Slip};
+use crate::scene::{Link, Places, Scene, Slip, rule};
 
 /// What is said of the sense in which a spring slips.
 const SLIPPING: &str = "1 or -1 while it slips, its ends coming nearer or going apart, else 0,";
@@ -17,22 +17,25 @@ impl Table {
         let mut rows = self.of_meeting("link", l, meeting);
         if link.stiffness > 0.0 {
             let scale = (Type::Real(Unit::NewtonPerMetre), link.stiffness);
-            rows.add(Parameter::LinkStiffness(l), "stiffness", scale, "stiffness of the link");
+            rows.add(Parameter::LinkStiffness(l), "stiffness", scale, "stiffness of the link")
+                .under(rule::LINK_STIFFNESS)
+                .sharing(SharedRule::Springs);
         }
         if link.dashpot > 0.0 {
             let scale = (Type::Real(Unit::NewtonSecondPerMetre), link.dashpot);
-            rows.add(Parameter::LinkDashpot(l), "dashpot", scale, "dashpot of the link");
+            rows.add(Parameter::LinkDashpot(l), "dashpot", scale, "dashpot of the link").under(rule::DASHPOT);
         }
         let Some(Slip { force, ratio }) = link.slip else { return };
         let about = format!("force of the spring at which the link {meeting} first slips");
-        self.add(Parameter::SlipForce(l), format!("link[{}].slip_force", l + 1), (NEWTON, force), about);
+        let row = self.add(Parameter::SlipForce(l), format!("link[{}].slip_force", l + 1), (NEWTON, force), about);
+        row.under(rule::SLIP_FORCE);
         let scale = (ONE, if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
         let about = "stiffness while it slips over that before, of the link";
         let mut rows = self.of_meeting("link", l, meeting);
-        rows.add(Parameter::LinkPostYieldRatio(l), "post_yield_ratio", scale, about).between(0.0, 1.0);
+        rows.add(Parameter::LinkPostYieldRatio(l), "post_yield_ratio", scale, about).under(rule::POST_YIELD_RATIO);
     }
 
-    pub(super) fn add_link_outputs(&mut self, (l, link): (usize, &Link), scene: &Scene, meeting: &str) {
+    pub(super) fn add_link_outputs(&mut self, l: usize, link: &Link, scene: &Scene, meeting: &str) {
         use LinkOutput as L;
         let slips = link.slip.is_some();
         let force = link.slip.map_or(link.stiffness * DISPLACEMENT + link.dashpot * VELOCITY, |slip| slip.force);

@@ -2,7 +2,7 @@
 //!
 //! [`Table::new`] lists what exists for a scene, [`Table::of_fmu`] what its FMU declares; the value reference of a variable
 //! is the number of its row. The description walks the rows, and every access goes through the row's [`Slot`]
-//! (`values.rs`), so the two cannot differ.
+//! (`settings.rs`), so the two cannot differ.
 //!
 //! ```
 //! use pounding::engine::{Model, Point};
@@ -24,7 +24,7 @@
 //!
 //! A new output or input is named in the engine (`engine/output/outputs.rs`, `engine/excitation/inputs.rs`), a new
 //! parameter in `slot.rs`; its row is in `rows.rs` (of links: `link_rows.rs`), and the compiler asks for the arms: of a
-//! parameter in `values.rs`, of an output in `initial_dependencies.rs`.
+//! parameter in `number.rs`, of an output in `initial_dependencies.rs`.
 
 mod changes;
 mod dependencies;
@@ -32,9 +32,11 @@ mod derivatives;
 mod foundation_rows;
 mod initial_dependencies;
 mod link_rows;
+mod number;
 mod numbers_only;
 mod part;
 mod rows;
+mod settings;
 mod slot;
 mod table;
 mod unit;
@@ -44,7 +46,8 @@ pub use changes::Changes;
 pub use dependencies::{Dependence, Dependencies};
 pub use derivatives::{by_parameter, highest_output_derivative};
 pub use initial_dependencies::InitialDependencies;
+pub use settings::Settings;
 pub use slot::{Calculated, Causality, Parameter, Slot};
-pub use table::{Row, Table, Type, Variability};
+pub use table::{Row, SharedRule, Table, Type, Variability};
 pub use unit::{Unit, UnitInfo};
-pub use values::{Settings, Value};
+pub use values::Value;

@@ -1,9 +1,10 @@
 //! How a row is made: its name from parts, and what follows from what it stands for.
 
-use super::slot::{Parameter, Slot};
-use super::table::{Row, Table, Type, Variability};
+use super::slot::Slot;
+use super::table::{Row, SharedRule, Table, Type, Variability};
 use super::unit::Unit;
 use crate::engine::{ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, Side, YieldingOf};
+use crate::scene::rule::Rule;
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 pub(super) const DISPLACEMENT: f64 = 0.01;
@@ -80,7 +81,18 @@ impl Table {
         let (name, description) = (name.into(), about.into());
         let (min, nominal) = (least(slot), has_nominal.then_some(nominal));
         let place = self.rows.len();
-        self.rows.push(Row { name, slot, variability, ty, min, max: None, nominal, description });
+        self.rows.push(Row {
+            name,
+            slot,
+            variability,
+            ty,
+            min,
+            max: None,
+            nominal,
+            rule: None,
+            shared: None,
+            description,
+        });
         &mut self.rows[place]
     }
 }
@@ -98,6 +110,16 @@ impl RowGroup<'_> {
 }
 
 impl Row {
+    /// The rule of a parameter, which says the least and the most that it can be.
+    pub(super) fn under(&mut self, rule: Rule) -> &mut Row {
+        (self.min, self.max, self.rule) = (rule.min(), rule.max(), Some(rule));
+        self
+    }
+
+    pub(super) fn sharing(&mut self, rule: SharedRule) {
+        self.shared = Some(rule);
+    }
+
     pub(super) fn at_least(&mut self, min: f64) -> &mut Row {
         self.min = Some(min);
         self
@@ -116,8 +138,7 @@ fn least(slot: Slot) -> Option<f64> {
     use FoundationOutput as F;
     use YieldingOf as Y;
     let is_never_negative = match slot {
-        Slot::Input(_) => false,
-        Slot::Parameter(of) => !matches!(of, Parameter::Gap(_) | Parameter::GroundScale | Parameter::GroundRecord),
+        Slot::Input(_) | Slot::Parameter(_) => false,
         Slot::Calculated(_) => true,
         Slot::Output(of) => match of {
             Output::Peak(_) | Output::OfStorey(..) | Output::Impacts => true,

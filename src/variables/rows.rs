@@ -6,12 +6,12 @@ use super::part::{
     POST_YIELD_RATIO, RATIO, VELOCITY,
 };
 use super::slot::{Calculated, Parameter};
-use super::table::{Row, Table, Type};
+use super::table::{Row, SharedRule, Table, Type};
 use super::unit::Unit;
 use crate::contact::LawKey;
 use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
-use crate::scene::{Building, ContactPair, Damping, Place, Scaling, Scene, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Place, Scaling, Scene, Stiffness, law_key, rule};
 
 impl Table {
     /// The variables of a scene.
@@ -42,7 +42,7 @@ impl Table {
                 table.add_collapse(side);
             }
             table.add_building(building, side, scene.peaks);
-            table.add_foundation(building, side, scene.peaks);
+            table.add_foundation(scene, side);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
             table.add_contact(p, pair, &pair.meeting(scene));
@@ -50,7 +50,7 @@ impl Table {
         }
         for (l, link) in scene.links.iter().enumerate() {
             table.add_link(l, link, &link.meeting(scene));
-            table.add_link_outputs((l, link), scene, &link.meeting(scene));
+            table.add_link_outputs(l, link, scene, &link.meeting(scene));
         }
         let has_foundation = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
         if has_foundation || !scene.links.is_empty() {
@@ -62,7 +62,8 @@ impl Table {
         }
         let about = "error of each contact episode, relative to the velocities in it";
         let scale = (ONE, scene.solver.relative_tolerance);
-        table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", scale, about).between(1e-15, 1e-2);
+        let row = table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", scale, about);
+        row.under(rule::RELATIVE_TOLERANCE);
         table
     }
 
@@ -76,14 +77,16 @@ impl Table {
         }
         let about = "ground acceleration of the scaled record, positive to the right";
         self.add(Output::GroundAcceleration, name, ACCELERATED, about);
-        self.add(Parameter::GroundScale, "ground.scale", RATIO, "factor on the record");
+        self.add(Parameter::GroundScale, "ground.scale", RATIO, "factor on the record")
+            .under(rule::SCALE)
+            .sharing(SharedRule::Scaling);
         let scaled = match scene.ground.scaling {
             Scaling::Scale(_) => "times ground.scale".to_owned(),
             Scaling::Pga(pga) => format!("scaled to the scene's peak of {pga:?} m/s2 unless ground.scale is set"),
         };
         let about =
             format!("path of another record file (CSV or AT2) to run instead, {scaled}; empty: the one inside the FMU");
-        self.add(Parameter::GroundRecord, "ground.record", (Type::String, 0.0), about);
+        self.add(Parameter::GroundRecord, "ground.record", (Type::String, 0.0), about).sharing(SharedRule::Scaling);
     }
 
     fn add_floor(&mut self, building: &Building, side: Side, floor: usize, floor_forces: bool) {
@@ -103,10 +106,12 @@ impl Table {
         ] {
             rows.add(output, quantity, scale, &format!("{quantity} of floor #{level}, {frame}"));
         }
-        rows.add(Parameter::Mass(side, floor), "mass", (Type::Real(Unit::Kilogram), mass), "mass of floor #");
+        let scale = (Type::Real(Unit::Kilogram), mass);
+        rows.add(Parameter::Mass(side, floor), "mass", scale, "mass of floor #").under(rule::MASS);
         if let Stiffness::Shear(storeys) = &building.stiffness {
             let scale = (Type::Real(Unit::NewtonPerMetre), storeys[floor]);
-            rows.add(Parameter::Stiffness(side, floor), "stiffness", scale, "lateral stiffness of storey #");
+            let row = rows.add(Parameter::Stiffness(side, floor), "stiffness", scale, "lateral stiffness of storey #");
+            row.under(rule::STOREY_STIFFNESS).sharing(SharedRule::Springs);
         }
     }
 
@@ -153,13 +158,14 @@ impl Table {
         if let Damping::Ratio(ratio) = building.damping {
             let scale = (ONE, if ratio > 0.0 { ratio } else { DAMPING_RATIO });
             let about = "ratio of critical damping in every mode";
-            rows.add(Parameter::DampingRatio(side), "damping_ratio", scale, about);
+            rows.add(Parameter::DampingRatio(side), "damping_ratio", scale, about).under(rule::DAMPING_RATIO);
         }
         if let Damping::Dashpots(storeys) = &building.damping {
             for (storey, dashpot) in storeys.iter().enumerate() {
                 let scale = (Type::Real(Unit::NewtonSecondPerMetre), *dashpot);
                 let about = "dashpot between the floors of storey #";
-                self.of_floor(side, storey).add(Parameter::Dashpot(side, storey), "dashpot", scale, about);
+                let mut rows = self.of_floor(side, storey);
+                rows.add(Parameter::Dashpot(side, storey), "dashpot", scale, about).under(rule::DASHPOT);
             }
         }
         let base = if on_soil { ", on a fixed base" } else { "" };
@@ -174,27 +180,28 @@ impl Table {
     fn add_contact(&mut self, p: usize, pair: &ContactPair, meeting: &str) {
         let (mut rows, law) = (self.of_meeting("contact", p, meeting), &pair.law);
         let gap = if pair.gap == 0.0 { DISPLACEMENT } else { pair.gap.abs() };
-        rows.add(Parameter::Gap(p), "gap", (METRE, gap), "clear distance at rest");
+        rows.add(Parameter::Gap(p), "gap", (METRE, gap), "clear distance at rest")
+            .under(rule::GAP)
+            .sharing(SharedRule::Overlap(p));
         if pair.position().is_some() {
             let about = "share of the storey's height, from its lower end, at which columns are hit,";
-            rows.add(Parameter::Position(p), "position", RATIO, about).between(0.0, 1.0);
+            rows.add(Parameter::Position(p), "position", RATIO, about)
+                .under(rule::POSITION)
+                .sharing(SharedRule::Overlap(p));
         }
-        for key in law.kind.info().keys {
-            match key {
+        for &key in law.kind.info().keys {
+            let (parameter, scale, about) = match key {
                 LawKey::Stiffness => {
                     let unit = law.kind.info().stiffness_unit.map_or(Unit::One, Unit::of_stiffness);
-                    let scale = (Type::Real(unit), law.stiffness);
-                    rows.add(Parameter::ContactStiffness(p), "stiffness", scale, "stiffness of the contact");
+                    (Parameter::ContactStiffness(p), (Type::Real(unit), law.stiffness), "stiffness of the contact")
                 }
-                LawKey::Exponent => {
-                    let row = rows.add(Parameter::Exponent(p), "exponent", RATIO, "exponent of the penetration");
-                    row.between(1.0, 3.0);
-                }
+                LawKey::Exponent => (Parameter::Exponent(p), RATIO, "exponent of the penetration"),
                 LawKey::Restitution | LawKey::ImpulseRestitution => {
-                    let about = "coefficient of restitution";
-                    rows.add(Parameter::Restitution(p), "restitution", RATIO, about).between(0.0, 1.0);
+                    (Parameter::Restitution(p), RATIO, "coefficient of restitution")
                 }
-            }
+            };
+            let key = law_key::number(key);
+            rows.add(parameter, key.name, scale, about).under(key.rule);
         }
     }
 
@@ -227,10 +234,11 @@ impl Table {
         let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
         let mut rows = self.of_floor(side, storey);
         let about = "storey shear at which storey # first yields";
-        rows.add(Parameter::YieldForce(side, storey), "yield_force", (NEWTON, force), about);
+        rows.add(Parameter::YieldForce(side, storey), "yield_force", (NEWTON, force), about).under(rule::YIELD_FORCE);
         let scale = (ONE, if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
         let about = "stiffness of storey # after yield over that before";
-        rows.add(Parameter::PostYieldRatio(side, storey), "post_yield_ratio", scale, about).between(0.0, 1.0);
+        rows.add(Parameter::PostYieldRatio(side, storey), "post_yield_ratio", scale, about)
+            .under(rule::POST_YIELD_RATIO);
         let drift = (METRE, force / stiffness);
         for (of, name, scale, about) in [
             (Y::Shear, "storey_shear", (NEWTON, force), "storey shear, without damping,"),

@@ -4,6 +4,7 @@ use super::slot::Slot;
 use super::unit::Unit;
 use crate::FmiVersion;
 use crate::engine::Inputs;
+use crate::scene::rule::Rule;
 
 /// FMI variability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,8 +48,24 @@ pub struct Row {
     pub max: Option<f64>,
     /// Typical magnitude, > 0.
     pub nominal: Option<f64>,
+    /// Of the numbers that a parameter can have.
+    pub rule: Option<Rule>,
+    /// The rule that a parameter shares with others.
+    pub shared: Option<SharedRule>,
     /// One line for a user.
     pub description: String,
+}
+
+/// What has to hold of several parameters together, and is asked again when one of them is set. Rules about gravity are
+/// not: a master may set a weight first and then the stiffness that carries it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SharedRule {
+    /// The record can be scaled so.
+    Scaling,
+    /// Rigid floors of a contact do not overlap at the start.
+    Overlap(usize),
+    /// Links and soil are springs beside those of the storeys.
+    Springs,
 }
 
 /// All variables of a scene. The value reference of a variable is its place in `rows`.

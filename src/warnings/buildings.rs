@@ -32,8 +32,8 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let units = facts.scene.units;
-    let mut tell = |(key, unit): (&str, &str), values: &[f64], odd: Vec<(usize, f64)>, beside: &str| {
-        for (index, factor) in odd {
+    let mut tell = |(key, unit): (&str, &str), values: &[f64], odd: Vec<OddEntry>, beside: &str| {
+        for OddEntry { index, factor } in odd {
             let times = how_many_times(factor);
             let text = format!(
                 "{times} the {beside} beside it; all are in {}{}",
@@ -51,37 +51,46 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
         Stiffness::Matrix(_) => &[],
     };
     // A soft first storey is an isolated building, unless that makes it slower than any.
-    let is_isolated = |(index, factor): (usize, f64)| index == 0 && factor < 1.0 && facts.pace(side) == Pace::Usual;
+    let is_isolated = |odd: &OddEntry| odd.index == 0 && odd.factor < 1.0 && facts.pace(side) == Pace::Usual;
     tell(("stiffness", "N/m"), storeys, odd_entries(storeys, others, is_isolated), "stiffness of the storeys");
 }
 
-/// Entries far from their neighbours, and by what factor: at either end of the list by 50, within it by 8 from both
+/// An entry of a list that the others speak against.
+struct OddEntry {
+    index: usize,
+    /// How many times what the others let expect.
+    factor: f64,
+}
+
+/// Entries far from their neighbours: at either end of the list by 50, within it by 8 from both
 /// neighbours. Where a list steps by 200 it is the entry above the step, wherever that is.
-fn odd_entries(values: &[f64], others: &[f64], is_meant: impl Fn((usize, f64)) -> bool) -> Vec<(usize, f64)> {
-    let mut odd: Vec<(usize, f64)> = Vec::new();
+fn odd_entries(values: &[f64], others: &[f64], is_meant: impl Fn(&OddEntry) -> bool) -> Vec<OddEntry> {
+    let mut odd: Vec<OddEntry> = Vec::new();
     let usual = median(values.iter().copied()).unwrap_or(1.0);
-    for (i, &value) in values.iter().enumerate() {
-        let beside = [i.checked_sub(1), Some(i + 1)].map(|j| j.and_then(|j| values.get(j).copied()));
+    for (index, &value) in values.iter().enumerate() {
+        let beside = [index.checked_sub(1), Some(index + 1)].map(|j| j.and_then(|j| values.get(j).copied()));
         let (factor, least) = match beside {
             [Some(below), Some(above)] => (nearest(value, &[below, above, usual]), 8.0),
             [Some(one), None] | [None, Some(one)] if values.len() > 2 => (nearest(value, &[one, usual]), 50.0),
             _ => continue,
         };
-        if factor.max(1.0 / factor) >= least && !is_meant((i, factor)) {
-            odd.push((i, factor));
+        let entry = OddEntry { index, factor };
+        if factor.max(1.0 / factor) >= least && !is_meant(&entry) {
+            odd.push(entry);
         }
     }
     let is_far = |factor: f64| factor.max(1.0 / factor) >= 200.0;
     for (i, pair) in values.windows(2).enumerate() {
-        let is_said = odd.iter().any(|&(known, _)| known == i || known == i + 1);
+        let is_said = odd.iter().any(|known| known.index == i || known.index == i + 1);
         let factor = pair[1] / pair[0];
-        if is_said || !is_far(factor) || is_meant((i, 1.0 / factor)) {
+        let below = OddEntry { index: i, factor: 1.0 / factor };
+        if is_said || !is_far(factor) || is_meant(&below) {
             continue;
         }
         // Of two floors the neighbour tells which one is odd.
         let neighbour = median(others.iter().copied()).unwrap_or(pair[0]);
         let first_is_odd = values.len() == 2 && distance(pair[0], neighbour) > distance(pair[1], neighbour);
-        odd.push(if first_is_odd { (i, 1.0 / factor) } else { (i + 1, factor) });
+        odd.push(if first_is_odd { below } else { OddEntry { index: i + 1, factor } });
     }
     odd
 }

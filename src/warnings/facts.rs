@@ -155,9 +155,9 @@ pub(super) fn mean_mass(building: &Building) -> f64 {
     building.mass.iter().sum::<f64>() / building.mass.len().max(1) as f64
 }
 
-/// What a number in a scene in units of the first kind may have been given in, where that is a unit of the second kind; `si` is
-/// its unit in the SI.
-pub(super) fn was_given((units, odd): (Units, Units), si: &str) -> String {
+/// What a number of a scene in these units may have been given in, if it looks odd in the units `odd`; `si` is its unit in
+/// the SI.
+pub(super) fn was_given(units: Units, odd: Units, si: &str) -> String {
     let meant = if odd == Units::Si { Units::KilonewtonTonne } else { Units::Si };
     if units == odd {
         format!("; it is in {}, was it given in {}?", odd.unit(si), meant.unit(si))

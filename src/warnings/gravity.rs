@@ -24,12 +24,12 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{side}.{key}")));
         match &building.p_delta {
             Some(p_delta) => {
-                look_at_loads(facts, (side, p_delta), found);
-                look_at_coefficients((side, building, p_delta), found);
-                look_at_falls((side, building, p_delta), found);
+                look_at_loads(facts, side, p_delta, found);
+                look_at_coefficients(facts, side, p_delta, found);
+                look_at_falls(facts, side, p_delta, found);
             }
             None if is_known || facts.pace(side) != Pace::Usual => {}
-            None => look_at_neglect((side, building), found),
+            None => look_at_neglect(facts, side, found),
         }
     }
 }
@@ -49,7 +49,8 @@ fn likewise<T>(storeys: &[T]) -> String {
 }
 
 /// Heights are there, and with them the weights would be a good part of the stiffness.
-fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
+fn look_at_neglect(facts: &Facts<'_>, side: Side, found: &mut Found) {
+    let building = facts.building(side);
     let Some(heights) = &building.heights else { return };
     let mut leaning = building.clone();
     leaning.p_delta = Some(PDelta::new(vec![true; building.mass.len()]));
@@ -71,8 +72,8 @@ fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
     found.add(format!("{side}.p_delta"), "false".to_owned(), text);
 }
 
-fn look_at_coefficients((side, building, p_delta): (Side, &Building, &PDelta), found: &mut Found) {
-    let mut storeys = coefficients(building);
+fn look_at_coefficients(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
+    let mut storeys = coefficients(facts.building(side));
     storeys.retain(|(_, theta)| *theta > MOST_ALLOWED);
     let Some((storey, theta)) = storeys.first() else { return };
     let text = format!(
@@ -84,19 +85,29 @@ fn look_at_coefficients((side, building, p_delta): (Side, &Building, &PDelta), f
     found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
 
+/// A storey whose stiffness is negative once it yields.
+struct Falling {
+    /// From 0 at the bottom.
+    storey: usize,
+    net: NetStorey,
+    /// m, at which it resists no push any more.
+    critical_drift: f64,
+}
+
 /// Storeys whose stiffness is negative once they yield, and those that start where they can only fall.
-fn look_at_falls((side, building, p_delta): (Side, &Building, &PDelta), found: &mut Found) {
+fn look_at_falls(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
+    let building = facts.building(side);
     let storeys = (0..building.mass.len()).filter_map(|storey| {
         let net = building.net_storey(storey)?;
-        Some((storey, net, net.critical_drift()?))
+        Some(Falling { storey, net, critical_drift: net.critical_drift()? })
     });
-    let mut storeys: Vec<(usize, NetStorey, f64)> = storeys.collect();
-    for (storey, _, critical) in &storeys {
-        look_at_start((side, building), *storey, *critical, found);
+    let mut storeys: Vec<Falling> = storeys.collect();
+    for falling in &storeys {
+        look_at_start(facts, side, falling, found);
     }
-    storeys.sort_by(|one, other| one.2.total_cmp(&other.2));
-    let Some((storey, net, critical)) = storeys.first() else { return };
-    let reserve = critical / net.yield_drift();
+    storeys.sort_by(|one, other| one.critical_drift.total_cmp(&other.critical_drift));
+    let Some(Falling { storey, net, critical_drift }) = storeys.first() else { return };
+    let reserve = critical_drift / net.yield_drift();
     let near = if reserve < LEAST_RESERVE {
         format!(", only {} times the drift at which it yields", short(reserve))
     } else {
@@ -107,28 +118,29 @@ fn look_at_falls((side, building, p_delta): (Side, &Building, &PDelta), found: &
          {near}{}",
         storey + 1,
         short(net.ratio - net.theta()),
-        short(*critical),
+        short(*critical_drift),
         likewise(&storeys)
     );
     found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
 
-fn look_at_start((side, building): (Side, &Building), storey: usize, critical: f64, found: &mut Found) {
-    let drift = building.initial_drift(storey);
+fn look_at_start(facts: &Facts<'_>, side: Side, falling: &Falling, found: &mut Found) {
+    let building = facts.building(side);
+    let drift = building.initial_drift(falling.storey);
     let path = format!("{side}.initial_displacement");
-    if drift.abs() > critical && !found.has(&path) {
+    if drift.abs() > falling.critical_drift && !found.has(&path) {
         let text = format!(
             "storey {} starts at a drift of {} m, and beyond {} m it resists no push any more",
-            storey + 1,
+            falling.storey + 1,
             short(drift),
-            short(critical)
+            short(falling.critical_drift)
         );
         found.numbers(path, &building.initial_displacement, text);
     }
 }
 
 /// Loads far from the weights of the masses. A floor may have none.
-fn look_at_loads(facts: &Facts<'_>, (side, p_delta): (Side, &PDelta), found: &mut Found) {
+fn look_at_loads(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
     let Some(loads) = &p_delta.load else { return };
     let has_any = loads.iter().any(|load| *load > 0.0);
     let share = |floor: usize| loads[floor] / (STANDARD_GRAVITY * facts.building(side).mass[floor]);

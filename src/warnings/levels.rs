@@ -23,7 +23,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
     let tolerance = facts.scene.facing.unwrap_or(LEVEL_TOLERANCE);
     for (index, pair) in facts.scene.contacts.iter().enumerate() {
-        look_at_pair(facts.scene, (index, pair), tolerance, found);
+        look_at_pair(facts.scene, index, pair, tolerance, found);
     }
 }
 
@@ -108,7 +108,7 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
 }
 
 /// A pair whose faces are not at one level.
-fn look_at_pair(scene: &Scene, (index, pair): (usize, &ContactPair), tolerance: f64, found: &mut Found) {
+fn look_at_pair(scene: &Scene, index: usize, pair: &ContactPair, tolerance: f64, found: &mut Found) {
     let heights = |side: Side| scene.building(side).heights.as_ref();
     let path = |key: &str| format!("contact[{}].{key}", index + 1);
     match (pair.left, pair.right) {

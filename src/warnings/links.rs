@@ -4,7 +4,7 @@ use super::facts::{Facts, NEVER_REACHED, inertia_of, shaken, was_given};
 use super::found::{Found, Odd};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Link, Place, Side, Stiffness, Units};
+use crate::scene::{Building, Link, Place, Share, Side, Stiffness, Units};
 
 /// Times the stiffest storey: from there on a spring is as good as rigid.
 const TIE: f64 = 10.0;
@@ -38,7 +38,7 @@ fn tie(link: &Link) -> &'static str {
 
 /// What slips is no tie, however stiff its brace.
 fn stiff(facts: &Facts<'_>, link: &Link) -> Odd {
-    let storeys = link.ends().map(|(side, ..)| stiffest(facts.building(side)));
+    let storeys = link.ends().map(|end| stiffest(facts.building(end.side)));
     let factor = link.stiffness / storeys.fold(0.0, f64::max);
     (factor > TIE && link.slip.is_none()).then(|| {
         let (tie, units) = (tie(link), facts.scene.units);
@@ -57,10 +57,10 @@ fn stiffest(building: &Building) -> f64 {
 
 /// Judged by the first modes of the buildings that swing as buildings do; any other end stands still.
 fn overdamped(facts: &Facts<'_>, link: &Link) -> Odd {
-    let swinging = link.ends().filter_map(|(side, place, _)| {
-        let Place::Floor(floor) = place else { return None };
-        let first = facts.swinging(side)?;
-        Some((first.shape[floor].powi(2) / inertia_of(first, facts.building(side)), first.omega))
+    let swinging = link.ends().filter_map(|end| {
+        let Place::Floor(floor) = end.place else { return None };
+        let first = facts.swinging(end.side)?;
+        Some((first.shape[floor].powi(2) / inertia_of(first, facts.building(end.side)), first.omega))
     });
     let (inverse_mass, omega) = swinging.fold((0.0, 0.0_f64), |(sum, most), (one, omega)| (sum + one, most.max(omega)));
     if omega == 0.0 {
@@ -82,8 +82,8 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
     let slip = link.slip?;
     let peak = facts.peak.filter(|peak| *peak > 0.0 && !ground_is_odd);
     let weight = |side: Side| STANDARD_GRAVITY * facts.building(side).mass.iter().sum::<f64>();
-    let share = slip.force / link.ends().map(|(side, ..)| weight(side)).fold(f64::INFINITY, f64::min);
-    let sways = || link.ends().map(|(side, ..)| facts.sway(side)).sum::<Option<f64>>();
+    let share = slip.force / link.ends().map(|end| weight(end.side)).fold(f64::INFINITY, f64::min);
+    let sways = || link.ends().map(|end| facts.sway(end.side)).sum::<Option<f64>>();
     let reach = peak.and_then(|_| sways()).filter(|_| !facts.starts_moving());
     let travel = slip.force / link.stiffness;
     let why = match reach {
@@ -97,16 +97,16 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
         ),
         _ => return None,
     };
-    let given = was_given((facts.scene.units, Units::KilonewtonTonne), "N");
+    let given = was_given(facts.scene.units, Units::KilonewtonTonne, "N");
     Some((slip.force, format!("{why}: the spring will never slip, which no slip_force would say as well{given}")))
 }
 
 fn always_slips(facts: &Facts<'_>, link: &Link) -> Odd {
     let slip = link.slip?;
-    let weight = |side: Side, place: Place| STANDARD_GRAVITY * facts.building(side).inertia(place);
-    let share = slip.force / link.ends().map(|(side, place, _)| weight(side, place)).fold(f64::INFINITY, f64::min);
+    let weight = |end: Share| STANDARD_GRAVITY * facts.building(end.side).inertia(end.place);
+    let share = slip.force / link.ends().map(weight).fold(f64::INFINITY, f64::min);
     (share < ALWAYS_EXCEEDED).then(|| {
-        let given = was_given((facts.scene.units, Units::Si), "N");
+        let given = was_given(facts.scene.units, Units::Si, "N");
         let text = format!(
             "{} times the weight of the lighter floor: the spring will slip in every motion and hold nothing{given}",
             short(share)

@@ -21,16 +21,16 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         // A building with other units makes its soil look odd.
         let (Some(foundation), false) = (&building.foundation, found.has(side.name())) else { continue };
         if let Some(first) = &facts.first[side as usize] {
-            look_at_period((facts, side), foundation, springs((building, first), foundation), found);
+            look_at_period(facts, side, foundation, springs(building, first, foundation), found);
         }
-        look_at_dashpots((side, building), foundation, found);
+        look_at_dashpots(side, building, foundation, found);
         look_at_inertia(side, foundation, found);
     }
 }
 
 /// How much the springs of sway and rocking add to the square of the first period, as shares of that on a fixed base: those
 /// of one mass on a column, whose mass, stiffness and height are those of the first mode.
-fn springs((building, first): (&Building, &FirstMode), foundation: &Foundation) -> [f64; 2] {
+fn springs(building: &Building, first: &FirstMode, foundation: &Foundation) -> [f64; 2] {
     let moving = || building.mass.iter().zip(&first.shape);
     let [all, squares] = [1, 2].map(|power| moving().map(|(m, x)| m * x.powi(power)).sum::<f64>());
     let height = moving().zip(levels(building)).map(|((m, x), level)| m * x * level).sum::<f64>() / all;
@@ -44,7 +44,7 @@ fn levels(building: &Building) -> impl Iterator<Item = f64> {
     building.heights.iter().flat_map(|heights| (1..).map(|i| heights.level(i) - heights.base_level))
 }
 
-fn look_at_period((facts, side): (&Facts<'_>, Side), foundation: &Foundation, shares: [f64; 2], found: &mut Found) {
+fn look_at_period(facts: &Facts<'_>, side: Side, foundation: &Foundation, shares: [f64; 2], found: &mut Found) {
     let ratio = (1.0 + shares[0] + shares[1]).sqrt();
     let units = facts.scene.units;
     let is_sway = shares[0] >= shares[1];
@@ -75,7 +75,7 @@ fn look_at_period((facts, side): (&Facts<'_>, Side), foundation: &Foundation, sh
 }
 
 /// Judged by the building as a rigid body on the soil.
-fn look_at_dashpots((side, building): (Side, &Building), foundation: &Foundation, found: &mut Found) {
+fn look_at_dashpots(side: Side, building: &Building, foundation: &Foundation, found: &mut Found) {
     let turned: f64 = building.mass.iter().zip(levels(building)).map(|(m, level)| m * level * level).sum();
     let mass = foundation.mass + building.mass.iter().sum::<f64>();
     let of = [("sway", foundation.sway, mass), ("rocking", foundation.rocking, foundation.inertia + turned)];

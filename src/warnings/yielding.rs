@@ -64,7 +64,7 @@ fn look_at_forces(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut
     let is_small = |storey: &&Storey| storey.share < if storey.index == 0 { LEAST_ISOLATOR } else { LEAST_STOREY };
     let mut tell = |odd: Vec<&Storey>, meaning: &str, given_in: Units| {
         let Some(first) = odd.first() else { return };
-        let given = was_given((facts.scene.units, given_in), "N");
+        let given = was_given(facts.scene.units, given_in, "N");
         let text = format!("{} times the weight above: {meaning}{given}", short(first.share));
         let indices: Vec<usize> = odd.iter().map(|storey| storey.index).collect();
         found.entries(&format!("{side}.yield_force"), &yielding.force, &indices, storeys.len(), |_| text.clone());

@@ -5,5 +5,6 @@ mod effect;
 mod limits;
 mod links;
 mod refusals;
+mod rules;
 mod scene;
 mod soil;

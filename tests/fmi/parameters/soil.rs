@@ -4,7 +4,8 @@ use super::dependencies::{compare, declared, seen_at_start};
 use super::effect::run_with;
 use crate::support::{ERROR, Fmu, OK, YIELDING};
 
-const SCENE: &str = "name = \"Soil\"\nstop_time = 2.0\n[outputs]\nenergy = true\n[ground]\nrecord = \"record.csv\"\n\
+pub(super) const SCENE: &str = "name = \"Soil\"\nstop_time = 2.0\n[outputs]\nenergy = true\n[ground]\n\
+    record = \"record.csv\"\n\
     [left]\nmass = [4e4, 3e4]\nheight = [4.0, 3.0]\nstiffness = [3e7, 2e7]\ndamping = { ratio = 0.05 }\np_delta = true\n\
     initial_displacement = [0.01, 0.02]\n[left.foundation]\nmass = 3e4\ninertia = 3e5\n\
     sway = { stiffness = 9e7, dashpot = 1.5e6 }\nrocking = { stiffness = 1.2e9, dashpot = 4e6 }\n\

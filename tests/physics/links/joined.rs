@@ -47,9 +47,9 @@ fn damping_of(building: &Building) -> DMatrix<f64> {
 /// What a link adds to a matrix of all floors, for one unit.
 fn joined_by(link: &Link, lefts: usize, n: usize) -> DMatrix<f64> {
     let mut row = DVector::zeros(n);
-    link.ends().for_each(|(side, end, weight)| {
-        let floor = end.floor().unwrap();
-        row[if side == Side::Left { floor } else { lefts + floor }] = weight;
+    link.ends().for_each(|end| {
+        let floor = end.place.floor().unwrap();
+        row[if end.side == Side::Left { floor } else { lefts + floor }] = end.weight;
     });
     &row * row.transpose()
 }
@@ -102,7 +102,7 @@ fn check_links(scene: &Scene, [linked, one]: &[Run; 2]) {
     for (l, link) in scene.links.iter().enumerate() {
         let sum = |read: fn(&Run, Side, usize) -> f64| {
             let floor_of = |side, floor| if side == Side::Left { floor } else { lefts + floor };
-            let ends = link.ends().map(|(side, end, weight)| (weight, floor_of(side, end.floor().unwrap())));
+            let ends = link.ends().map(|end| (end.weight, floor_of(end.side, end.place.floor().unwrap())));
             ends.map(|(weight, floor)| weight * read(one, Side::Left, floor)).sum::<f64>()
         };
         let (e, rate) = (sum(Run::displacement), sum(Run::velocity));

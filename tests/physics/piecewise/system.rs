@@ -139,7 +139,7 @@ impl System {
     fn add_links(&mut self, places: Places) {
         for link in &places.0.links {
             let mut row = DVector::zeros(self.mass.len());
-            link.ends().for_each(|(side, end, weight)| row[places.at(side, end)] = weight);
+            link.ends().for_each(|end| row[places.at(end.side, end.place)] = end.weight);
             let Slip { force, ratio } = link.slip.unwrap_or(Slip { force: f64::INFINITY, ratio: 1.0 });
             self.damping += link.dashpot * &row * row.transpose();
             let (stiffness, limit) = (link.stiffness, force / link.stiffness);
