@@ -267,10 +267,11 @@ fn modes_that_have_settled_make_no_search_finer() {
 #[test]
 fn searches_for_peaks_that_may_have_ended_early_are_counted() {
     for (ratio, is_cut) in [(0.0, true), (0.001, false)] {
-        let frame =
-            "mass = [3.65, 3.65, 3.65]\nstiffness = [2910.0, 2910.0, 2910.0]\ninitial_velocity = [0.1, -0.3, 0.2]";
-        let scene =
-            scene(&format!("name = \"W\"\n[left]\n{frame}\ndamping = {{ ratio = {ratio:?} }}\n[right]\n{frame}"));
+        let frame = format!(
+            "mass = [3.65, 3.65, 3.65]\nstiffness = [2910.0, 2910.0, 2910.0]\ndamping = {{ ratio = {ratio:?} }}\n\
+             initial_velocity = [0.1, -0.3, 0.2]"
+        );
+        let scene = scene(&format!("name = \"W\"\n[left]\n{frame}\n[right]\n{frame}"));
         let mut run = Run::new(&scene, None);
         run.to(50_000.0);
         assert!(run.peak(PeakOf::Drift(Side::Left, 1)) > 0.0);
