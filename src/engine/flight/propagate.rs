@@ -13,7 +13,7 @@ impl System {
     /// Writes to `end` the motion `h` seconds after the base, under `work.load` and its slope.
     pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, end: MotionMut) {
         let Buffers { load, slope, scratch, interval, .. } = work;
-        if self.structure.in_flight().is_classical() && !cfg!(without = "short_flight") {
+        if self.structure.in_flight().is_classical() {
             return self.fly_uncoupled(base, h, LinearLoad { load, slope }, interval, end);
         }
         let prepared = self.prepared(base, h);
@@ -43,7 +43,8 @@ impl System {
             return prepared.fly_uncoupled(start, loads, end);
         }
         let flying = self.structure.in_flight();
-        if let Some(order) = exact_order(flying.fastest * h) {
+        let order = exact_order(flying.fastest * h).filter(|_| !cfg!(without = "short_flight"));
+        if let Some(order) = order {
             return fly_in_one_series(flying, start, loads, (h, order), end);
         }
         interval.prepare(flying, h);
