@@ -88,8 +88,7 @@ impl Structure {
             Some(BaseShear::of((side, building), modes, structure.body(side), &structure.floors))
         });
         structure.alone = alone;
-        // A force on a floor loads both coordinates of an oscillator, which only the ground is kept from.
-        if !cfg!(without = "oscillators") && !scene.floor_forces {
+        if flies_by_oscillators(scene) {
             let flight = FlightModes::of(&structure.bodies);
             structure.flight = flight
                 .map(|(flight, moving)| (flight, Box::new(Structure::of_bodies(moving, structure.floors.clone()))));
@@ -377,6 +376,14 @@ impl Structure {
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
     }
+}
+
+/// Whether nothing but the ground pushes on the buildings in flights: forces on floors, and rigid pairs that have just parted,
+/// ask for the modes.
+fn flies_by_oscillators(scene: &Scene) -> bool {
+    !cfg!(without = "oscillators")
+        && !scene.floor_forces
+        && !scene.contacts.iter().any(|contact| contact.law.is_rigid())
 }
 
 /// `out` -= a square matrix, column by column, times `factor` times a vector.

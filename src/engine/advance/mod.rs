@@ -310,7 +310,7 @@ impl Model {
             contact.tracked = false;
             if let Some((penetration, rate)) = *tracked {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.tracked = self.system.is_close(p, penetration, base);
+                contact.tracked = self.system.is_close(p, penetration, base.coordinates, &base.q);
                 continue;
             }
             // That of a closed contact the step has followed.

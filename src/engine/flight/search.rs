@@ -40,7 +40,7 @@ impl Search<'_> {
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
         self.look.start(base, &self.work.load);
         if is_tracked {
-            system.accelerate_in_flight(base, self.work);
+            system.structure.accelerate(&base.q, &base.v, &self.work.load, &mut self.work.q);
             unit = unit.min(system.rebound_step_limit(base, &self.work.q));
         }
         let (mut series_left, mut longer) = (1, f64::from(LONGER) * unit);

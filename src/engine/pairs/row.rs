@@ -100,14 +100,6 @@ impl WeightRow {
         }
     }
 
-    /// The same as [`WeightRow::project`], of a series in the coordinates of the base.
-    pub(crate) fn project_at(&self, base: &Base, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
-        match base.oscillates {
-            true => self.in_flight().project(series, factors, out),
-            false => self.project(base.coordinates, series, factors, out),
-        }
-    }
-
     /// Writes the terms of the quantity to `out[n]`, as a series in time. Returns the sum of the magnitudes of all that was
     /// added up, each term times its `factor`.
     pub(crate) fn project(

@@ -1,14 +1,14 @@
 //! Rigid pairs near the surface: the step length up to the next rebound, and their penetration and rate at its end.
 
-use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{Event, Tracked};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{Motion, MotionSeries, difference};
+use crate::structure::{MotionSeries, difference};
 
 /// A rigid pair is tracked by its own increments while it is at most this many rounding errors of its penetration
 /// apart.
@@ -18,18 +18,6 @@ const CLOSE: f64 = 1e6;
 const SHORT_WHILE: f64 = 1e-3;
 
 impl System {
-    /// Writes the modal accelerations at the base of a flight, whose load is in `work`, to `work.q`.
-    pub(crate) fn accelerate_in_flight(&self, base: &Base, work: &mut Buffers) {
-        let Buffers { load, node_q: on_modes, q: acceleration, account, .. } = work;
-        on_modes.copy_from_slice(load);
-        if base.oscillates {
-            let ground = base.ground().acceleration;
-            on_modes.iter_mut().zip(&self.structure.participation).for_each(|(load, share)| *load = -share * ground);
-        }
-        let Motion { q, v } = self.motion_of_modes((base.oscillates, base.motion()), &mut account.modal);
-        self.structure.accelerate(q, v, on_modes, acceleration);
-    }
-
     /// Upper bound on the step length, s, so that the next rebound of every pair near the surface takes a good part of
     /// the step; from the modal accelerations at the base.
     pub(crate) fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
@@ -86,7 +74,7 @@ impl System {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             tracked[p] = contact.tracked.then(|| {
                 let terms = &mut scalar[..=series.order];
-                let noise = pair.noise(pair.row.project_at(base, series, powers.in_time().0, terms));
+                let noise = pair.noise(pair.row.project(base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
                 let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
@@ -95,8 +83,8 @@ impl System {
     }
 
     /// Whether a rigid pair at this penetration, m, is to be tracked.
-    pub(crate) fn is_close(&self, p: usize, penetration: f64, base: &Base) -> bool {
-        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].row.size_at(base))
+    pub(crate) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
+        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].row.difference(coordinates, q).1)
     }
 }
 

@@ -40,7 +40,10 @@ impl System {
     ) {
         let (of, (element, centre)) = self.element_at(i, &base.elements);
         let mut drift = [0.0; MAX_TERMS];
-        let size = of.row.project_at(base, series, factors, &mut drift);
+        let size = match base.oscillates {
+            true => of.in_flight().project(series, factors, &mut drift),
+            false => of.row.project(base.coordinates, series, factors, &mut drift),
+        };
         let noise = of.noise(centre, size);
         let count = series.order + 1;
         if is_start && element.turned.is_some() {
