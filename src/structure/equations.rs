@@ -88,11 +88,6 @@ impl Structure {
             Some(BaseShear::of((side, building), modes, structure.body(side), &structure.floors))
         });
         structure.alone = alone;
-        if flies_by_oscillators(scene) {
-            let flight = FlightModes::of(&structure.bodies);
-            structure.flight = flight
-                .map(|(flight, moving)| (flight, Box::new(Structure::of_bodies(moving, structure.floors.clone()))));
-        }
         Ok(structure)
     }
 
@@ -178,6 +173,14 @@ impl Structure {
         }
         let coupling = |matrix: DMatrix<f64>| Coupling { offset, power: Form::of(&matrix, offset), matrix };
         self.coupling.extend(body.coupling().map(coupling));
+    }
+
+    /// Lets flights go by oscillators where damping couples modes. For buildings on which nothing but the ground pushes in a flight,
+    /// and whose flights nothing reads in modes.
+    pub fn fly_by_oscillators(&mut self) {
+        let flight = FlightModes::of(&self.bodies);
+        self.flight =
+            flight.map(|(flight, moving)| (flight, Box::new(Structure::of_bodies(moving, self.floors.clone()))));
     }
 
     /// The oscillators that move in flights, where these are not the modes.
@@ -376,14 +379,6 @@ impl Structure {
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
     }
-}
-
-/// Whether nothing but the ground pushes on the buildings in flights: forces on floors, and rigid pairs that have just parted,
-/// ask for the modes.
-fn flies_by_oscillators(scene: &Scene) -> bool {
-    !cfg!(without = "oscillators")
-        && !scene.floor_forces
-        && !scene.contacts.iter().any(|contact| contact.law.is_rigid())
 }
 
 /// `out` -= a square matrix, column by column, times `factor` times a vector.

@@ -110,7 +110,12 @@ fn coupled() -> Vec<Structure> {
          [left]\nmass = [2.0, 1.0]\nstiffness = [800.0, 300.0]\ndamping = { dashpots = [3.0, 0.0] }\n\
          [right]\nmass = [1.0, 1.5, 0.5]\nstiffness = [500.0, 700.0, 90.0]\ndamping = { ratio = 0.05 }\n",
     );
-    let structure = |scene: &Scene| Structure::of(scene).ok().unwrap();
+    let of_modes = |scene: &Scene| Structure::of(scene).ok().unwrap();
+    let structure = |scene: &Scene| {
+        let mut structure = of_modes(scene);
+        structure.fly_by_oscillators();
+        structure
+    };
     let alone = structure(&scene);
     let link = |floor: usize, dashpot: f64| {
         let (left, right) = (Some(Place::Floor(floor)), Some(Place::Floor(floor + 1)));
@@ -118,9 +123,7 @@ fn coupled() -> Vec<Structure> {
     };
     scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];
     let joined = structure(&scene);
-    // Where a master may push on floors, flights are those of the modes themselves.
-    scene.floor_forces = true;
-    let of_modes = structure(&scene);
+    let of_modes = of_modes(&scene);
     assert!(joined.oscillators().is_some() && of_modes.oscillators().is_none());
     let mut tall = common::scene(&format!(
         "name = \"Tall\"\n[left]\nmass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.05 }}\n\

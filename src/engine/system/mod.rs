@@ -63,8 +63,13 @@ impl System {
     /// The system of a checked scene; `record` is there when `scene.ground.record` is.
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
         let mut structure = Structure::of(scene).map_err(|(side, _)| not_positive_definite(side))?;
+        // Rigid pairs that have just parted are followed in modes; a force on a floor would load both coordinates of an oscillator.
+        let needs_modes = scene.floor_forces || scene.contacts.iter().any(|contact| contact.law.is_rigid());
         if scene.floor_forces {
             structure.prepare_floor_forces();
+        }
+        if !needs_modes && !cfg!(without = "oscillators") {
+            structure.fly_by_oscillators();
         }
         let pairs: Vec<Pair> = scene.contacts.iter().map(|pair| Pair::new(pair, scene, &structure)).collect();
         let ground = match record {
