@@ -58,6 +58,7 @@ PATHS = {
 TOGETHER = [
     ("onset", "time_map"),
     ("windows", "onset", "time_map"),
+    ("dismissal", "certificate"),
     ("certificate", "envelopes", "short_flight"),
 ]
 

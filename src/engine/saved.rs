@@ -133,7 +133,7 @@ impl Model {
         self.check_segment(saved)?;
         self.check_contacts(base)?;
         let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
-        self.check_storeys(base)?;
+        self.check_elements(base)?;
         require(base.collapsed.is_none() || !saved.is_planned, "its run has ended, and goes on")?;
         require(base.peaks.fit(&self.peaks().start_peaks()), "the peaks in it are impossible")?;
         require(
@@ -189,7 +189,7 @@ impl Model {
     }
 
     /// An element is not beyond its limits, and at one of them where it yields or has just turned.
-    fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
+    fn check_elements(&self, base: &Base) -> Result<(), EngineError> {
         for (of, (element, centre)) in self.system.elements_at(&base.elements) {
             let (drift, size) = (of.row.value_at(base), of.row.size_at(base));
             let rounding = AT_LIMIT * (of.limit + size);

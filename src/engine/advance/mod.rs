@@ -189,7 +189,7 @@ impl Model {
     /// it is worked out from.
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         let State { base, step, inputs, counters, work, .. } = state;
-        // Work integrates the step from the motion, the contacts and the storeys at its start.
+        // Work integrates the step from the motion, the contacts and the elements at its start.
         self.system.add_work(&mut At { base, inputs, counters }, step, work.for_energy());
         // So do impulses and peaks. From here on forces, impulses and work of closed contacts are those of the end, and
         // all else is still that of the start.
@@ -211,7 +211,7 @@ impl Model {
         }
         // Plastic drifts move the position of rest, and with it `q` and the gaps at rest: before anything is measured
         // from them.
-        self.move_storeys(base, step);
+        self.move_elements(base, step);
         let Step { planned, .. } = &mut *step;
         // What planned the length of this step says where the next one begins to look; an entry, below, forgets it.
         base.last_length = planned.next_length.unwrap_or(base.last_length);
@@ -221,8 +221,8 @@ impl Model {
         // Floors that are held together are put together again, by what rounding has moved them apart: after the
         // contacts, whose phases say which they are and whose penetrations do not change by it.
         self.system.project_constraints(base, &mut work.buffers);
-        // That may have moved a storey that yields off its limit: it is put back by plastic drift, not by its floors.
-        self.anchor_storeys(base);
+        // That may have moved an element that yields off its limit: it is put back by plastic drift, not by its floors.
+        self.anchor_elements(base);
         // The event sees all of this at its instant, and begins or ends what changes there.
         if let Some(event) = planned.event {
             counters.events += 1;
@@ -241,9 +241,9 @@ impl Model {
         step.kind = StepKind::NotPlanned;
     }
 
-    /// Moves the storeys, and with them the position of rest, to the end of the planned step, whose motion is that of the
+    /// Moves the elements, and with them the position of rest, to the end of the planned step, whose motion is that of the
     /// base by now.
-    fn move_storeys(&self, base: &mut Base, step: &Step) {
+    fn move_elements(&self, base: &mut Base, step: &Step) {
         if base.elements.is_empty() || step.planned.length == 0.0 {
             return;
         }
@@ -259,9 +259,9 @@ impl Model {
         self.set_rest(base);
     }
 
-    /// Puts each storey that yields exactly on its limit: what rounding has added up, or floors that are held together have
+    /// Puts each element that yields exactly on its limit: what rounding has added up, or floors that are held together have
     /// been moved by to stay so, is plastic drift.
-    fn anchor_storeys(&self, base: &mut Base) {
+    fn anchor_elements(&self, base: &mut Base) {
         if !base.is_yielding() {
             return;
         }

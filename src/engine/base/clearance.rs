@@ -1,6 +1,6 @@
-//! Until which segment of the record each pair is known to stay apart, and all storeys to stay elastic (found in the
+//! Until which segment of the record each pair is known to stay apart, and all elements to stay elastic (found in the
 //! broad phase), and at which contacts penetration and rate are those at the base. What is said of pairs holds for the
-//! elements that can yield as well: they have one place together, after the pairs (`System::place_of_storeys`).
+//! elements that can yield as well: they have one place together, after the pairs (`System::place_of_elements`).
 
 use crate::engine::bounds::amplitude::MOST;
 use serde::{Deserialize, Serialize};

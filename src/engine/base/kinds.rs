@@ -3,7 +3,7 @@
 /// A kind of step; of a flight, what showed that nothing happens in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Apart, and bounds for segments ahead had cleared all pairs and storeys, or there are none.
+    /// Apart, and bounds for segments ahead had cleared all pairs and elements, or there are none.
     Cleared,
     /// Apart, shown by both ends.
     ByEnds,
@@ -17,7 +17,7 @@ pub enum Kind {
     Window,
     /// Just after an entry under a power law: a double power series.
     Onset,
-    /// An element yields or a link slips, and no contact is closed: a power series that is exact.
+    /// A storey yields or a link slips, and no contact is closed: a power series that is exact.
     Exact,
     /// Any forces: power series in time.
     Series,
@@ -48,7 +48,7 @@ pub enum Refusal {
     SwitchedOff,
     /// No window, no onset: a rigid contact is closed or about to close.
     NearRigid,
-    /// No window, no onset: an element yields or a link slips.
+    /// No window, no onset: a storey yields or a link slips.
     Yielding,
     /// No windows in this scene: no law has a root at the surface, so that power series see no singularity.
     NoRoot,

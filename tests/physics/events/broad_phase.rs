@@ -247,7 +247,7 @@ fn a_run_that_looks_at_every_pair_has_the_same_bits() {
             // otherwise those of complex modes: they round in another way.
             let mut driven = plain.clone();
             driven.floor_forces = true;
-            // With its account open a run takes every segment by itself.
+            // With its account open.
             let mut accounted = plain.clone();
             accounted.energy = true;
             let [plain, driven, accounted] = [plain, driven, accounted].map(|scene| {
