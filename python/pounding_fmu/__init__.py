@@ -18,6 +18,7 @@ What is allowed in a scene but looks like a slip is told as a ``SceneWarning``.
 from pathlib import Path
 
 from ._batch import BatchError, simulate_batch
+from ._couple import couple
 from ._data import DATA
 from ._fmu import build_fmu
 from ._native import __version__
@@ -32,6 +33,7 @@ __all__ = [
     "Variable",
     "__version__",
     "build_fmu",
+    "couple",
     "example_scene",
     "problems",
     "read_record",

@@ -17,11 +17,13 @@ __all__ = [
     "Scene",
     "__version__",
     "build",
+    "couple",
     "run_command",
     "simulate",
     "spare",
     "summary",
     "with_numbers_only",
+    "with_outside",
 ]
 
 __version__: str
@@ -48,6 +50,7 @@ class Scene:
     def with_record(self, record: Record) -> Scene: ...
     def with_parameters(self, parameters: list[tuple[int, float]]) -> Scene: ...
     def without_contacts(self) -> Scene: ...
+    def is_coupled(self) -> bool: ...
     def layout(self) -> str: ...
     def stop(self) -> float: ...
     def record(self) -> Record | None: ...
@@ -94,6 +97,14 @@ class Batch:
 def simulate(
     scene: Scene, step: float, stop: float, references: list[int], rows_per_impact: int | None = None
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
+def with_outside(scene: Scene, stiffness: list[tuple[bool, list[list[float]]]]) -> Scene: ...
+def couple(
+    scene: Scene,
+    models: list[tuple[bool, Callable[[NDArray[np.float64]], Any]]],
+    how: str,
+    step: float,
+    stop: float,
+) -> tuple[Scene, list[str]]: ...
 def summary(scene: Scene, step: float, stop: float) -> str: ...
 def build(
     scene: Scene, output: str | None, file: str | None, libraries: str, platforms: list[str], is_fmi3: bool

@@ -166,21 +166,36 @@ def simulate(
     Warns:
         SceneWarning: for each thing that looks like a slip.
     """
-    read = read_scene(scene)
-    if record is not None:
-        read = read.with_record(read_record(record, "record"))
-    read, names = _with_parameters(read, by_name("parameters", parameters), record is not None)
+    read, names = prepared(read_scene(scene), parameters, record)
     slips = read.warnings()
     if without_contacts:
         read = read.without_contacts()
         names = Names(read)
-    columns = None if outputs is None else [name for name in dict.fromkeys(names_of(outputs)) if name != "time"]
-    names.check([], columns or [])
+    columns, within = wished(names, outputs, rows_per_impact)
     step = _native.STEP if step is None else positive("step", step)
     stop = read.stop() if stop is None else positive("stop", stop)
-    rows_per_impact = None if rows_per_impact is None else whole("rows_per_impact", rows_per_impact, 0, 2**16 - 1)
     warn(slips)
-    return run(read, names, step, stop, columns, rows_per_impact)
+    return run(read, names, step, stop, columns, within)
+
+
+def prepared(
+    read: _native.Scene,
+    parameters: Mapping[str, float | str | os.PathLike[str]] | None,
+    record: Record | None,
+) -> tuple[_native.Scene, Names]:
+    """A scene under a record and with parameters, if there are any, and the names of its variables."""
+    if record is not None:
+        read = read.with_record(read_record(record, "record"))
+    return _with_parameters(read, by_name("parameters", parameters), record is not None)
+
+
+def wished(
+    names: Names, outputs: Iterable[str] | None, rows_per_impact: int | None
+) -> tuple[list[str] | None, int | None]:
+    """The columns and the rows of each impact that a run is to have."""
+    columns = None if outputs is None else [name for name in dict.fromkeys(names_of(outputs)) if name != "time"]
+    names.check([], columns or [])
+    return columns, None if rows_per_impact is None else whole("rows_per_impact", rows_per_impact, 0, 2**16 - 1)
 
 
 def run(

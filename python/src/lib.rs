@@ -10,6 +10,7 @@
 //! | `document.rs` | a scene written as a Python dict, as TOML |
 //! | `records.rs` | records from files and arrays, each content read once |
 //! | `single.rs` | one run with all its rows |
+//! | `couple.rs` | one run with buildings of other programs |
 //! | `cases.rs` | the cases of a batch: their parameters, and what is wrong with them |
 //! | `batch.rs` | many runs on all cores |
 //! | `fmu.rs` | FMUs of scenes |
@@ -21,6 +22,7 @@
 mod batch;
 mod cases;
 mod command;
+mod couple;
 mod document;
 mod fmu;
 mod records;
@@ -40,6 +42,8 @@ mod _native {
     use crate::batch::Batch;
     #[pymodule_export]
     use crate::command::run_command;
+    #[pymodule_export]
+    use crate::couple::{couple, with_outside};
     #[pymodule_export]
     use crate::fmu::{build, with_numbers_only};
     #[pymodule_export]

@@ -70,6 +70,11 @@ impl Scene {
         Scene(self.0.without_contacts())
     }
 
+    /// Whether it has what buildings of another program have added to a run.
+    fn is_coupled(&self) -> bool {
+        self.0.corrections.start(0).is_some()
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.0.settings.scene.name

@@ -8,13 +8,13 @@ use pounding_simulate::instants;
 use pounding_simulate::outcome::Follower;
 use pounding_simulate::readings::{Kind, Reading};
 use pounding_simulate::scenario::Scenario;
-use pounding_simulate::solve::{Solved, solve};
+use pounding_simulate::solve::{Run, Solved, solve_run};
 use pounding_simulate::summary::{Problem, text};
 use pounding_simulate::tables::impact;
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What is kept of a run: its rows by columns, and its impacts.
 #[derive(Default)]
@@ -40,12 +40,13 @@ pub fn simulate<'py>(
     references: Vec<u32>,
     rows_per_impact: Option<u16>,
 ) -> PyResult<Arrays<'py>> {
-    let Scenario { settings, table, .. } = &scene.get().0;
+    let Scenario { settings, table, corrections, .. } = &scene.get().0;
     let reading = |&reference| Reading::new(table, settings, reference);
     let readings: Vec<Reading> = references.iter().filter_map(reading).collect();
     has_room(stop / step, readings.len() + 1)?;
     let kept = solved(py, &scene.get().0, |model, told_to_stop| {
-        run(model, &readings, (step, stop, rows_per_impact), told_to_stop)
+        let start = || Run::under(model, Arc::clone(corrections));
+        run((model, &start), &readings, (step, stop, rows_per_impact), told_to_stop)
     })?;
     Ok(kept.into_arrays(py, &readings))
 }
@@ -62,7 +63,9 @@ pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -
             follower.look(&now);
             go_on(told_to_stop)
         };
-        let solution = solve(model, instants::regular(step, stop), Some(look)).map_err(|error| error.to_string())?;
+        let run = Run::under(model, Arc::clone(&scene.corrections));
+        let solution = solve_run(run, model, instants::regular(step, stop), Some(look));
+        let solution = solution.map_err(|error| error.to_string())?;
         Ok(problem.heading() + &text(&follower.outcome(solution.time), Some(problem), stop_reason))
     })
 }
@@ -96,7 +99,7 @@ fn has_room(rows: f64, columns: usize) -> PyResult<()> {
 }
 
 fn run(
-    model: &Model,
+    (model, start): (&Model, &impl Fn() -> Run),
     readings: &[Reading],
     (step, stop, rows_per_impact): (f64, f64, Option<u16>),
     told_to_stop: &AtomicBool,
@@ -105,7 +108,7 @@ fn run(
     let within = match rows_per_impact {
         None => Vec::new(),
         Some(count) => {
-            let first = solve(model, regular(), Some(|_: Solved<'_>| go_on(told_to_stop)))
+            let first = solve_run(start(), model, regular(), Some(|_: Solved<'_>| go_on(told_to_stop)))
                 .map_err(|error| error.to_string())?;
             instants::within(&first.events, stop, count)
         }
@@ -116,7 +119,7 @@ fn run(
         kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
         go_on(told_to_stop)
     };
-    let solution = solve(model, instants::merge(regular(), within), Some(keep));
+    let solution = solve_run(start(), model, instants::merge(regular(), within), Some(keep));
     for episode in &solution.map_err(|error| error.to_string())?.events.episodes {
         let (contact, row) = impact(episode);
         kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `lib.rs` | the arguments, and what is done with them |
 //! | `instants.rs` | the instants at which a run is looked at |
+//! | `couple.rs`, `corrections.rs` | a run with buildings of another program, and what it had from there |
 //! | `scenario.rs` | a scene with its record and its parameters |
 //! | `solve.rs` | the run over these instants |
 //! | `readings.rs` | what is read of a run, by value reference |
@@ -17,6 +18,8 @@
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
 //! | `written.rs` | files that are written, none of which may be one that is read |
 
+pub mod corrections;
+pub mod couple;
 pub mod instants;
 pub mod layout;
 pub mod outcome;

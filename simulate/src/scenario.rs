@@ -1,10 +1,11 @@
 //! A scene with its record and its parameters, as programs hand it from step to step.
 
 use crate::STOP;
+use crate::corrections::Corrections;
 use pounding::description::Package;
 use pounding::engine::Model;
 use pounding::record::Record;
-use pounding::scene::SceneError;
+use pounding::scene::{Scene, SceneError, Side, Stiffness};
 use pounding::variables::{Parameter, Settings, Slot, Table, Value};
 use pounding::warnings::{self, Warning};
 use std::sync::Arc;
@@ -17,6 +18,8 @@ pub struct Scenario {
     pub settings: Settings,
     /// Its variables.
     pub table: Table,
+    /// What another program's buildings add, in a run that has been made.
+    pub corrections: Arc<Corrections>,
     /// Whether anything is not as the scene says.
     is_changed: bool,
 }
@@ -27,12 +30,12 @@ impl Scenario {
         let record = package.record.as_ref().map(|packaged| packaged.record.clone());
         let settings = Settings::new(package.scene.clone(), record);
         let table = Table::new(&settings.scene);
-        Scenario { package: Arc::new(package), settings, table, is_changed: false }
+        Scenario { package: Arc::new(package), settings, table, corrections: Arc::default(), is_changed: false }
     }
 
     fn changed(&self, settings: Settings) -> Scenario {
         let table = Table::new(&settings.scene);
-        Scenario { package: Arc::clone(&self.package), settings, table, is_changed: true }
+        Scenario { package: Arc::clone(&self.package), settings, table, corrections: Arc::default(), is_changed: true }
     }
 
     /// The same under another record.
@@ -70,6 +73,27 @@ impl Scenario {
         let mut settings = self.settings.clone();
         settings.scene.contacts.clear();
         self.changed(settings)
+    }
+
+    /// The same whose buildings another program has, with this stiffness in place of what their storeys are in the scene.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it then.
+    pub fn with_outside(&self, stiffness: Vec<(Side, Stiffness)>) -> Result<Scenario, SceneError> {
+        let mut settings = self.settings.clone();
+        settings.scene.restoring_corrections = true;
+        for (side, stiffness) in stiffness {
+            let Scene { left, right, .. } = &mut settings.scene;
+            let building = if side == Side::Left { left } else { right };
+            (building.stiffness, building.yielding) = (stiffness, None);
+        }
+        settings.check()?;
+        Ok(self.changed(settings))
+    }
+
+    /// The same with what these buildings have added to a run.
+    pub fn with_corrections(&self, corrections: Corrections) -> Scenario {
+        Scenario { corrections: Arc::new(corrections), ..self.changed(self.settings.clone()) }
     }
 
     /// What looks like a slip in it.

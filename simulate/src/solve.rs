@@ -1,7 +1,9 @@
 //! Runs the engine over a sequence of instants.
 
+use crate::corrections::Corrections;
 use pounding::engine::{Collapse, EngineError, Episode, Instant, Model, Point, State};
 use std::error::Error;
+use std::sync::Arc;
 use std::time::{Duration, Instant as Clock};
 
 /// A run that has come to an instant.
@@ -31,14 +33,23 @@ pub struct Run {
     state: State,
     point: Point,
     events: Events,
+    /// What another program adds, and how many of its lines have been set.
+    corrections: Arc<Corrections>,
+    set: usize,
 }
 
 impl Run {
     /// At the start.
     pub fn new(model: &Model) -> Run {
+        Run::under(model, Arc::default())
+    }
+
+    /// The same of a run that has these corrections.
+    pub fn under(model: &Model, corrections: Arc<Corrections>) -> Run {
         let mut state = model.start(0.0);
         state.note_switches();
-        Run { state, point: Point::default(), events: Events::default() }
+        corrections.apply(0, &mut state);
+        Run { state, point: Point::default(), events: Events::default(), corrections, set: 1 }
     }
 
     /// Goes on to an instant, s, no earlier than the last one; where a storey collapses the run ends before it.
@@ -46,12 +57,22 @@ impl Run {
     /// # Errors
     /// What keeps the run from going on.
     pub fn advance<'a>(&'a mut self, model: &'a Model, time: f64) -> Result<Solved<'a>, EngineError> {
+        while let Some(start) = self.corrections.start(self.set).filter(|start| *start < time) {
+            self.go_on(model, start)?;
+            self.corrections.apply(self.set, &mut self.state);
+            self.set += 1;
+        }
+        self.go_on(model, time)?;
+        Ok(model.observe(&self.state, &mut self.point))
+    }
+
+    fn go_on(&mut self, model: &Model, time: f64) -> Result<(), EngineError> {
+        let Events { episodes, collapse, .. } = &mut self.events;
         // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
-        if time > 0.0 {
-            let Events { episodes, collapse, .. } = &mut self.events;
+        if time > 0.0 && collapse.is_none() {
             *collapse = model.advance(&mut self.state, time, &mut |episode| episodes.push(*episode))?;
         }
-        Ok(model.observe(&self.state, &mut self.point))
+        Ok(())
     }
 
     /// What has happened so far; contacts that last are not in it.
@@ -73,6 +94,16 @@ pub fn solve<E: Into<Box<dyn Error>>>(
     instants: impl Iterator<Item = f64>,
     show: Option<impl FnMut(Solved) -> Result<(), E>>,
 ) -> Result<Solution, Box<dyn Error>> {
+    solve_run(Run::new(model), model, instants, show)
+}
+
+/// The same of a run that is at its start.
+pub fn solve_run<E: Into<Box<dyn Error>>>(
+    run: Run,
+    model: &Model,
+    instants: impl Iterator<Item = f64>,
+    show: Option<impl FnMut(Solved) -> Result<(), E>>,
+) -> Result<Solution, Box<dyn Error>> {
     let (clock, mut shown) = (Clock::now(), Duration::ZERO);
     let sum = &mut shown;
     let timed = show.map(|mut show| {
@@ -83,7 +114,7 @@ pub fn solve<E: Into<Box<dyn Error>>>(
             result
         }
     });
-    let events = follow(model, instants, timed)?;
+    let events = follow_run(run, model, instants, timed)?;
     Ok(Solution { events, time: clock.elapsed() - shown })
 }
 
@@ -91,9 +122,17 @@ pub fn solve<E: Into<Box<dyn Error>>>(
 pub fn follow<E: Into<Box<dyn Error>>>(
     model: &Model,
     instants: impl Iterator<Item = f64>,
+    show: Option<impl FnMut(Solved) -> Result<(), E>>,
+) -> Result<Events, Box<dyn Error>> {
+    follow_run(Run::new(model), model, instants, show)
+}
+
+fn follow_run<E: Into<Box<dyn Error>>>(
+    mut run: Run,
+    model: &Model,
+    instants: impl Iterator<Item = f64>,
     mut show: Option<impl FnMut(Solved) -> Result<(), E>>,
 ) -> Result<Events, Box<dyn Error>> {
-    let mut run = Run::new(model);
     for time in instants {
         let now = run.advance(model, time)?;
         if let Some(show) = &mut show {

@@ -169,16 +169,15 @@ def accelerations(runs: Runs) -> Figure | None:
         largest = []
         for one, label, line in [
             (runs.run, "pounding", {**BUILDINGS[side], "linestyle": "-", "linewidth": 1.0}),
-            (runs.alone, "without contact", ALONE),
+            *([(runs.alone, "without contact", ALONE)] if runs.has_alone else []),
         ]:
             shown = one.rows(*runs.window)
             axes.plot(one.time[shown], one[name][shown] / STANDARD_GRAVITY, label=label, **line)
             at_all = np.abs(one[name]).max()
             peak = name.replace("acceleration", "peak_acceleration")
             largest.append((one[peak][-1] if peak in one else at_all) / STANDARD_GRAVITY)
-        axes.set_title(
-            f"{what}, {side} building: up to {largest[0]:.3g} g in the run, {largest[1]:.3g} g without contact"
-        )
+        compared = "".join(f", {peak:.3g} g without contact" for peak in largest[1:])
+        axes.set_title(f"{what}, {side} building: up to {largest[0]:.3g} g in the run{compared}")
         axes.set_ylabel("acceleration [g]")
         axes.legend(loc="lower right", ncols=2)
     return figure

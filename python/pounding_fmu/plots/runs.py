@@ -84,6 +84,11 @@ class Runs:
         within = int(min(ROWS_PER_IMPACT, self._most_rows / 2 / max(1, len(impacts)) - 5))
         return self._run(self._scene, self._step, self._drawn(self._scene), max(0, within))
 
+    @property
+    def has_alone(self) -> bool:
+        """Whether there is a run without contacts to compare with. A building of another program would have to be asked again."""
+        return bool(self.scene.contacts) and not self._scene.is_coupled()
+
     @cached_property
     def alone(self) -> Run:
         """Without contacts."""

@@ -32,7 +32,7 @@ def both(runs: Runs, side: str) -> list[tuple[Run, str, Look]]:
 
 def with_and_without(runs: Runs, name: str, look: Look) -> list[tuple[Run, str, Look]]:
     look = {**look, "linestyle": "-"}
-    if not runs.scene.contacts:
+    if not runs.has_alone:
         return [(runs.run, name, look)]
     return [(runs.run, f"{name}, pounding", look), (runs.alone, "without contact", ALONE)]
 
@@ -79,22 +79,28 @@ def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
     return largest
 
 
-def yielding_storeys(runs: Runs) -> dict[str, list[int]]:
-    """Of each building that has any, the storeys that can yield, counted from 1."""
+def storeys_with(runs: Runs, quantity: str) -> dict[str, list[int]]:
+    """Of each building that has any, the storeys with this output, counted from 1."""
     found = {
-        side: [i for i in range(1, count + 1) if f"{side}.storey_shear[{i}]" in runs.run]
+        side: [i for i in range(1, count + 1) if f"{side}.{quantity}[{i}]" in runs.run]
         for side, count in runs.scene.floors.items()
     }
     return {side: storeys for side, storeys in found.items() if storeys}
 
 
 def most_ductile(runs: Runs, most: int) -> dict[str, list[int]]:
-    """Of each building that has any, the storeys with the largest ductility, from below."""
+    """Of each building that has any, the storeys with the largest ductility, from below; those of another program have drifts."""
     found = {}
-    for side, own in yielding_storeys(runs).items():
-        ductility = {i: float(runs.run[f"{side}.ductility[{i}]"][-1]) for i in own}
-        found[side] = sorted(sorted(own, key=ductility.__getitem__)[-most:])
+    for side, own in storeys_with(runs, "storey_shear").items():
+        strain = {i: strain_of(runs, side, i) for i in own}
+        found[side] = sorted(sorted(own, key=strain.__getitem__)[-most:])
     return found
+
+
+def strain_of(runs: Runs, side: str, storey: int) -> float:
+    """Ductility, or the largest drift, mm."""
+    name = f"{side}.ductility[{storey}]"
+    return float(runs.run[name][-1] if name in runs.run else np.abs(drift_of(runs, runs.run, side, storey)).max())
 
 
 def strongest_links(runs: Runs, most: int) -> list[int]:
@@ -168,7 +174,8 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
     draw_zero(axes)
     pounding, *alone = (reached(runs, one, side, storey) for one, _, _ in lines)
     compared = f" ({alone[0]})" if alone else ""
-    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}{compared}")
+    what = "ductility" if f"{side}.ductility[{storey}]" in runs.run else "drift up to"
+    axes.set_title(f"{side.capitalize()} storey {storey}: {what} {pounding}{compared}")
 
 
 def draw_zero(axes: Axes) -> None:
@@ -177,7 +184,9 @@ def draw_zero(axes: Axes) -> None:
 
 
 def reached(runs: Runs, run: Run, side: str, storey: int) -> str:
-    """The largest ductility of a storey, and when it has collapsed, if it has."""
+    """The largest ductility of a storey, or its largest drift, and when it has collapsed, if it has."""
+    if f"{side}.ductility[{storey}]" not in run:
+        return f"{strain_of(runs, side, storey):.1f} mm"
     collapse = runs.collapse(run)
     fell = f", fell at {collapse[2]:.1f} s" if collapse and collapse[:2] == (side, storey) else ""
     return f"{run[f'{side}.ductility[{storey}]'][-1]:.1f}{fell}"
@@ -185,7 +194,7 @@ def reached(runs: Runs, run: Run, side: str, storey: int) -> str:
 
 def residual(runs: Runs) -> Figure | None:
     """Ductility and residual drift of each storey at the end, over the height, with and without contact."""
-    storeys = yielding_storeys(runs)
+    storeys = storeys_with(runs, "ductility")
     if not storeys:
         return None
     figure, panels = panels_over_height(runs.scene, 2 * len(storeys), 2.6)
