@@ -10,11 +10,12 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 from scenes import LAWS, TEMPLATES  # noqa: E402
-from solvers import OURS  # noqa: E402
+from solvers import OURS, WITHOUT_PEAKS  # noqa: E402
 
 # Okabe and Ito's colours, which colour-blind eyes tell apart; markers and dashes do in black and white.
 STYLES = {
     OURS: ("#000000", "-", "o"),
+    WITHOUT_PEAKS: ("#000000", ":", "o"),
     "heyoka": ("#D55E00", "-", "s"),
     "CVODE Adams, events": ("#0072B2", "-", "^"),
     "CVODE Adams, plain": ("#0072B2", ":", "^"),
@@ -41,7 +42,7 @@ def work_precision(rows, folder):
 
 def draw_scene(scene, rows, folder):
     # A law that only we have is in the tables; there is nothing to compare in a picture.
-    laws = [law for law in LAWS if len({row["solver"] for row in rows if row["law"] == law}) > 1]
+    laws = [law for law in LAWS if {row["solver"] for row in rows if row["law"] == law} - {OURS, WITHOUT_PEAKS}]
     columns = min(3, len(laws))
     shape = (-(-len(laws) // columns), columns)
     figure, panels = plt.subplots(

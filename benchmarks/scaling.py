@@ -86,7 +86,7 @@ def measure(points, repeats):
         if not (WORK / motion).exists():
             record.write(WORK / motion, step)
         scene = WORK / f"{index}.toml"
-        scene.write_text(replace(problem, record=motion).toml())
+        scene.write_text(replace(problem, record=motion).toml(peaks=False))
         solver = compiled.Solver(program, scene, sum(problem.floors), "engine", TOLERANCE)
         runs.append((name, value, problem, step, scene, solver))
     progress, outcomes = Progress(repeats), [[] for _ in runs]

@@ -119,7 +119,7 @@ def users():
 
 
 def of_benchmark(problem):
-    return problem.toml().replace("peaks = false", "peaks = true").replace('"record.csv"', f'"{WORK}/record.csv"')
+    return problem.toml().replace('"record.csv"', f'"{WORK}/record.csv"')
 
 
 def tall():

@@ -81,7 +81,8 @@ def run(options, results):
         progress.begin(problem.name)
         progress.show("truth")
         true = truth.of(problem, folder)
-        case = solvers.Case(problem, folder / f"{problem.name}.toml", folder / f"{problem.name}.txt", ground)
+        files = [folder / f"{problem.name}.{ending}" for ending in ("toml", "without_peaks.toml", "txt")]
+        case = solvers.Case(problem, *files, ground)
         compiled.write_problem(problem, ground, case.numbers_file)
         of_this = measure.compare(case, true, entries, budget, options.quick, progress)
         rows += of_this
@@ -113,6 +114,7 @@ def make_inputs(problems, folder):
     record.write(folder / "record.csv", duration=problems[0].stop)
     for problem in problems:
         (folder / f"{problem.name}.toml").write_text(problem.toml())
+        (folder / f"{problem.name}.without_peaks.toml").write_text(problem.toml(peaks=False))
     return tuple(np.loadtxt(folder / "record.csv", delimiter=",", skiprows=2, unpack=True))
 
 
