@@ -27,6 +27,8 @@ pub(super) struct Work {
     pub viscous: f64,
     /// Work of the external floor forces.
     pub external: f64,
+    /// That of the corrections, as forces on the floors.
+    pub correcting: f64,
 }
 
 impl Account {
@@ -35,6 +37,7 @@ impl Account {
         self.input.add(done.input);
         self.viscous.add(done.viscous);
         self.external.add(done.external);
+        self.correction.add(-done.correcting);
     }
 
     /// Which energies could be larger than all terms so far: none, where nothing but the ground has put any in.
@@ -182,7 +185,7 @@ impl System {
     pub(super) fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
         work.account.dashpots.fill(0.0);
-        self.find_force_slopes(inputs, base.coordinates, work);
+        self.find_push_slopes(inputs, base.coordinates, work);
         match step.dense() {
             _ if length == 0.0 => return done,
             Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
@@ -199,32 +202,50 @@ impl System {
                 self.integrate(base, motion, step.quadrature(length), 0.0, work, &mut done);
             }
         }
-        // Work of the floor forces at their values at the base; the quadratures add that of their change.
+        // Work of what a master pushes with at its values at the base; the quadratures add that of its change.
+        let at_base = |push: &LinearInput| push.after(base.segment.start, base.elapsed);
         work.load.fill(0.0);
-        let Base { segment, elapsed, .. } = base;
-        self.add_floor_forces(inputs, base.coordinates, |force| force.after(segment.start, *elapsed), &mut work.load);
+        self.add_floor_forces(inputs, base.coordinates, at_base, &mut work.load);
+        done.external += self.work_of_load(base, work);
+        if !self.corrections.is_empty() {
+            work.load.fill(0.0);
+            self.add_corrections(inputs, base.coordinates, at_base, &mut work.load);
+            done.correcting += self.work_of_load(base, work);
+        }
+        done
+    }
+
+    /// The work of `work.load`, per unit of mass, from the base to the motion in `work`.
+    fn work_of_load(&self, base: &Base, work: &Buffers) -> f64 {
         let moved = work.q.iter().zip(&base.q).map(|(q, start)| q - start);
-        done.external += match base.coordinates {
+        match base.coordinates {
             Coordinates::Modes => work.load.iter().zip(moved).map(|(load, moved)| load * moved).sum::<f64>(),
             Coordinates::Floors => {
                 let forces = work.load.iter().zip(self.structure.floors.mass()).map(|(load, mass)| load * mass);
                 forces.zip(moved).map(|(force, moved)| force * moved).sum::<f64>()
             }
-        };
-        done
+        }
     }
 
-    /// Sets `work.force_slope` to the rates of the floor forces; empty where all are held.
-    fn find_force_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Buffers) {
-        let slope = &mut work.force_slope;
-        slope.clear();
-        if inputs.floor_forces.iter().all(|force| force.slope() == 0.0) {
-            return;
+    /// Sets `work.push_slopes` to the rates of the floor forces and of the corrections; empty where all are held.
+    fn find_push_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Buffers) {
+        let [of_forces, of_corrections] = &mut work.push_slopes;
+        for (slopes, lines) in [(&mut *of_forces, &inputs.floor_forces), (&mut *of_corrections, &inputs.corrections)] {
+            slopes.clear();
+            if lines.iter().any(|line| line.slope() != 0.0) {
+                slopes.resize(self.structure.lanes, 0.0);
+            }
         }
-        slope.resize(self.structure.lanes, 0.0);
-        self.add_floor_forces(inputs, coordinates, LinearInput::slope, slope);
+        if !of_forces.is_empty() {
+            self.add_floor_forces(inputs, coordinates, LinearInput::slope, of_forces);
+        }
+        if !of_corrections.is_empty() {
+            self.add_corrections(inputs, coordinates, LinearInput::slope, of_corrections);
+        }
         if coordinates == Coordinates::Floors {
-            slope.iter_mut().zip(self.structure.floors.mass()).for_each(|(slope, mass)| *slope *= mass);
+            for slopes in &mut work.push_slopes {
+                slopes.iter_mut().zip(self.structure.floors.mass()).for_each(|(slope, mass)| *slope *= mass);
+            }
         }
     }
 
@@ -290,7 +311,7 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
+        let is_plain = base.coordinates == Coordinates::Modes && work.push_slopes.iter().all(Vec::is_empty);
         if !is_plain || series.time_map.is_curved() {
             let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
                 series.set_powers(t, powers);
@@ -313,7 +334,7 @@ impl System {
         }
     }
 
-    /// Adds the work of the ground motion, of structural damping and of the change of the floor forces since the base,
+    /// Adds the work of the ground motion, of structural damping and of the change of what a master pushes with since the base,
     /// over a solution that begins `from` seconds after the base, by the nodes and weights of a quadrature. `motion`(t,
     /// powers, q, v) writes the velocities at t to v, with q and the tables of powers as scratch.
     fn integrate(
@@ -325,7 +346,7 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q, node_v, v: damped, force_slope, powers, account, .. } = work;
+        let Buffers { node_q, node_v, v: damped, push_slopes: [of_forces, of_corrections], powers, account, .. } = work;
         // Oscillators move in flights only, which have their nodes side by side: here move modes, or floors.
         for (t, weight) in nodes {
             motion(t, powers, node_q, node_v);
@@ -343,8 +364,10 @@ impl System {
             for (l, done) in dashpots.iter_mut().enumerate() {
                 *done += weight * self.power_of_dashpot(l, self.link_closing(l, v));
             }
-            if !force_slope.is_empty() {
-                done.external += weight * (from + t) * dot(force_slope, v);
+            for (done, slopes) in [(&mut done.external, &*of_forces), (&mut done.correcting, of_corrections)] {
+                if !slopes.is_empty() {
+                    *done += weight * (from + t) * dot(slopes, v);
+                }
             }
         }
     }

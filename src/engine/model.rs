@@ -3,6 +3,7 @@
 use crate::engine::base::Base;
 use crate::engine::base::kinds::Refusal;
 use crate::engine::budget::{MOST_WORK, most_flights};
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::storeys::Storeys;
@@ -21,6 +22,8 @@ pub struct Model {
     /// A number that no other model has: what has been read of one is nothing to another.
     pub(in crate::engine) identity: u64,
     pub(in crate::engine) system: System,
+    /// The inputs of its scene, all 0.
+    pub(in crate::engine) inputs: Inputs,
     /// Whether the energy account is kept.
     pub(in crate::engine) energy: bool,
     pub(in crate::engine) flight: Flight,
@@ -49,10 +52,11 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            watched: Watched::of(structure, scene.peaks, scene.floor_forces),
+            watched: Watched::of(&system, scene.peaks),
             frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
+            inputs: Inputs::new(scene),
             identity: next_identity(),
             energy: scene.energy,
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),

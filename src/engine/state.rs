@@ -180,8 +180,11 @@ impl Workspace {
 
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
-        let floors = if model.system.floor_forces { model.system.structure.floors_of_both() } else { 0 };
-        let log = if model.peaks().logs_flights() { FlightLog::new(lanes, floors) } else { FlightLog::new(0, 0) };
+        let log = if model.peaks().logs_flights() {
+            FlightLog::new(lanes, model.inputs.pushes().count())
+        } else {
+            FlightLog::new(0, 0)
+        };
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, model.system.limits()),
@@ -202,8 +205,7 @@ impl Model {
 
     /// The initial state at a time, s, with all inputs 0.
     pub fn start(&self, time: f64) -> State {
-        let floors = Side::BOTH.map(|side| self.floors(side));
-        self.start_with(time, Inputs::of(floors, self.system.floor_forces))
+        self.start_with(time, self.inputs.clone())
     }
 
     /// The initial state at a time, s, with the inputs of its scene as set so far.

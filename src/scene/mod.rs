@@ -35,8 +35,8 @@
 //! Masses are in t and forces in kN where the scene begins with `units = "kN-t"`; what has been read is in SI units.
 //!
 //! The optional tables `[ground]` (`record`, a name or a table that says what its file does not; `scale` or `pga`), `[inputs]`
-//! (`floor_forces`), `[outputs]` (`energy`, `peaks`, `numbers_only`) and `[solver]` (`relative_tolerance`,
-//! `min_approach_velocity`) fill the fields of the same names in [`Scene`].
+//! (`floor_forces`, `restoring_corrections`), `[outputs]` (`energy`, `peaks`, `numbers_only`) and `[solver]`
+//! (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
 //!
 //! A scene is refused with all its problems at once, in the order of the file, each with its path, the value found and
 //! what was expected:

@@ -99,7 +99,7 @@ fn scene(mut root: Section<'_>) -> Scene {
     let left = building(root.require_section("left", "the building on the left"), units);
     let right = root.get("right").map(|item| building(item.section(), units));
     let ground = ground(root.section("ground"));
-    let floor_forces = inputs(root.section("inputs"));
+    let (floor_forces, restoring_corrections) = inputs(root.section("inputs"));
     let (contacts, facing) =
         read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
     let links = read_links::all(&mut root, units);
@@ -125,6 +125,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         right,
         ground,
         floor_forces,
+        restoring_corrections,
         contacts,
         facing,
         links,
@@ -334,11 +335,12 @@ fn ground(mut section: Section<'_>) -> Ground {
     Ground { record, options, scaling }
 }
 
-/// Whether floors have external forces.
-fn inputs(mut section: Section<'_>) -> bool {
+/// Whether floors have external forces, and whether what the buildings resist with is corrected.
+fn inputs(mut section: Section<'_>) -> (bool, bool) {
     let floor_forces = section.get("floor_forces").is_some_and(|item| item.boolean());
+    let restoring_corrections = section.get("restoring_corrections").is_some_and(|item| item.boolean());
     section.close(KEY);
-    floor_forces
+    (floor_forces, restoring_corrections)
 }
 
 /// What is shown, and how; as in [`Scene`].

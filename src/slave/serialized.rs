@@ -30,7 +30,7 @@ use uuid::Uuid;
 const MAGIC: &[u8; 8] = b"pounding";
 
 /// Of the body. It is counted up when what [`SnapshotBody`] holds changes: a test notices.
-const FORMAT: u32 = 12;
+const FORMAT: u32 = 13;
 
 /// Bytes around the body.
 const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + size_of::<u64>() + size_of::<Uuid>();

@@ -1,8 +1,8 @@
 //! Which inputs an output depends on at communication points, as the model structure of the description lists them.
 //! Those at the start are in `initial_dependencies.rs`.
 
-use crate::engine::{ContactOutput, FoundationOutput, Input, Output, Side};
-use crate::scene::{ContactPair, Place, Scene};
+use crate::engine::{ContactOutput, FoundationOutput, Input, Output, Side, YieldingOf};
+use crate::scene::{ContactPair, Place, Scene, Stiffness};
 use std::collections::HashMap;
 
 /// How an unknown depends on a known.
@@ -20,8 +20,9 @@ pub(super) type Movement = (Side, Place);
 
 /// Which inputs the outputs of a scene answer to at once, at a communication point at which they are set.
 ///
-/// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, and
-/// where floors are held together it accelerates all of them and changes the forces between them. The ground
+/// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, a correction
+/// those of its storey, and where floors are held together they accelerate all of them and change the forces between them.
+/// Shears are less by their corrections. The ground
 /// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
 /// the ground has a share.
 #[derive(Debug)]
@@ -77,7 +78,7 @@ impl<'a> Dependencies<'a> {
         self.groups.push(Group { members, has_ground: false });
     }
 
-    /// The inputs that an output answers to, in no order, and how.
+    /// The inputs that an output answers to, in no order, some maybe more than once, and how.
     pub fn at_communication_points(&self, output: Output) -> Vec<(Input, Dependence)> {
         let place = match output {
             Output::Acceleration(side, floor) => Some((side, Place::Floor(floor))),
@@ -88,16 +89,44 @@ impl<'a> Dependencies<'a> {
             }
             _ => None,
         };
-        let Some(place) = place else { return Vec::new() };
-        let force = |(side, place): Movement| Some(Input::Force(side, place.floor()?));
+        let fixed = |inputs: Vec<Input>| inputs.into_iter().map(|input| (input, Dependence::Fixed)).collect();
+        let Some(place) = place else { return fixed(corrections_of(self.scene, output)) };
         let Some(&group) = self.group_of.get(&place) else {
-            return force(place).map(|input| (input, Dependence::Fixed)).into_iter().collect();
+            return fixed(pushes_on(self.scene, place));
         };
         let Group { members, has_ground } = &self.groups[group];
         let ground = has_ground.then_some(Input::GroundAcceleration);
-        let inputs = members.iter().copied().filter_map(force).chain(ground);
+        let inputs = members.iter().flat_map(|place| pushes_on(self.scene, *place)).chain(ground);
         inputs.map(|input| (input, Dependence::Dependent)).collect()
     }
+}
+
+/// The inputs of a master that push on something: some that the scene may not have.
+pub(super) fn pushes_on(scene: &Scene, (side, place): Movement) -> Vec<Input> {
+    let building = scene.building(side);
+    let corrections: Vec<usize> = match (&building.stiffness, place) {
+        _ if !scene.restoring_corrections => Vec::new(),
+        (Stiffness::Matrix(_), _) => place.floor().into_iter().collect(),
+        (Stiffness::Shear(_), Place::Floor(floor)) => (floor..building.mass.len()).take(2).collect(),
+        (Stiffness::Shear(_), Place::Foundation) => vec![0],
+        (Stiffness::Shear(_), Place::Rotation) => (0..building.mass.len()).collect(),
+    };
+    let force = place.floor().map(|floor| Input::Force(side, floor));
+    force.into_iter().chain(corrections.into_iter().map(|number| Input::Correction(side, number))).collect()
+}
+
+/// The corrections by which a shear is less: some that the scene may not have.
+pub(super) fn corrections_of(scene: &Scene, output: Output) -> Vec<Input> {
+    let (side, numbers) = match output {
+        _ if !scene.restoring_corrections => return Vec::new(),
+        Output::BaseShear(side) => match scene.building(side).stiffness {
+            Stiffness::Shear(_) => (side, 0..1),
+            Stiffness::Matrix(_) => (side, 0..scene.building(side).mass.len()),
+        },
+        Output::OfYielding(YieldingOf::Shear, side, storey) => (side, storey..storey + 1),
+        _ => return Vec::new(),
+    };
+    numbers.map(|number| Input::Correction(side, number)).collect()
 }
 
 /// What the row of a contact moves.

@@ -7,11 +7,11 @@
 //! What an unknown depends on is listed, and no known is asked whether it does: tall buildings have thousands of unknowns
 //! and thousands of knowns.
 
-use super::dependencies::{Movement, movements, rows_by_movement};
+use super::dependencies::{Movement, corrections_of, movements, pushes_on, rows_by_movement};
 use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
 use crate::engine::{
-    ContactOutput, EnergyOutput, FoundationOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf,
+    ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf,
 };
 use crate::scene::{Building, ContactPair, Damping, FoundationKey, Place, Scene, Share, Stiffness};
 use std::collections::HashMap;
@@ -58,11 +58,15 @@ impl<'a> InitialDependencies<'a> {
             Slot::Output(output) => self.of_output(output),
             Slot::Input(_) | Slot::Parameter(_) => Vec::new(),
         };
-        let input = match unknown {
-            Slot::Output(Output::Acceleration(side, floor)) => Some(Slot::Input(Input::Force(side, floor))),
-            _ => None,
+        let inputs = match unknown {
+            Slot::Output(Output::Acceleration(side, floor)) => pushes_on(self.scene, (side, Place::Floor(floor))),
+            Slot::Output(Output::Foundation(side, FoundationOutput::Acceleration)) => {
+                pushes_on(self.scene, (side, Place::Foundation))
+            }
+            Slot::Output(output) => corrections_of(self.scene, output),
+            Slot::Input(_) | Slot::Parameter(_) | Slot::Calculated(_) => Vec::new(),
         };
-        parameters.into_iter().map(Slot::Parameter).chain(input).collect()
+        parameters.into_iter().map(Slot::Parameter).chain(inputs.into_iter().map(Slot::Input)).collect()
     }
 
     fn of_calculated(&self, calculated: Calculated) -> Vec<Parameter> {
@@ -86,6 +90,14 @@ impl<'a> InitialDependencies<'a> {
             Output::GroundAcceleration => vec![Parameter::GroundScale, Parameter::GroundRecord],
             Output::Displacement(..) | Output::Velocity(..) => Vec::new(),
             Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::LinkDisplacement(_)) => Vec::new(),
+            // No input has acted yet, without which accelerations, and shears that can be corrected, are not known.
+            Output::Peak(PeakOf::Acceleration(..)) if self.scene.floor_forces => Vec::new(),
+            Output::Peak(PeakOf::Acceleration(..) | PeakOf::BaseShear(_) | PeakOf::StoreyShear(..))
+            | Output::OfStorey(StoreyPeak::Shear, ..)
+                if self.scene.restoring_corrections =>
+            {
+                Vec::new()
+            }
             // The largest drift so far is known; the stiffness of the storey is a parameter.
             Output::OfStorey(StoreyPeak::DriftRatio, ..) => Vec::new(),
             Output::OfStorey(StoreyPeak::Shear, side, storey) => self.storey_that_drifts(side, storey),
@@ -96,9 +108,8 @@ impl<'a> InitialDependencies<'a> {
             Output::OfYielding(of, side, storey) => self.of_yielding(of, side, storey),
             // Whether a storey yields begins with the first step.
             Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => Vec::new(),
-            // No floor force has acted yet, without which an acceleration is not known.
-            Output::Peak(PeakOf::Acceleration(..)) if self.scene.floor_forces => Vec::new(),
             Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => self.base_shear(side),
+            Output::Peak(PeakOf::StoreyShear(side, storey)) => self.storey_that_drifts(side, storey),
             Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
                 self.acceleration(side, Place::Floor(floor))
             }
@@ -222,7 +233,7 @@ impl<'a> InitialDependencies<'a> {
             Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
             Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
         };
-        let is_forced = self.scene.floor_forces && place != Place::Foundation;
+        let is_forced = self.scene.floor_forces && place != Place::Foundation || self.scene.restoring_corrections;
         let is_held = || links.iter().any(|l| self.closing(*l) != [0.0; 2]);
         let is_pushed = || contacts.iter().any(|p| self.is_pushed(*p));
         if is_forced || is_strained || self.is_damped[side as usize] || is_held() || is_pushed() {

@@ -24,24 +24,26 @@ impl Table {
                 continue;
             }
             for floor in 0..building.mass.len() {
-                table.add_floor(building, side, floor, scene.floor_forces);
+                table.add_inputs(scene, side, floor);
+                table.add_floor(building, side, floor);
                 if scene.peaks {
                     table.add_peaks(building, side, floor);
                 }
             }
             for storey in 0..building.mass.len() {
                 if scene.contacts.iter().any(|pair| pair.columns() == Some((side, storey + 1))) {
-                    table.add_struck_storey(building, side, storey, scene.peaks);
+                    table.add_struck_storey(scene, side, storey);
                 }
             }
             for storey in 0..building.mass.len() {
-                table.add_yielding(building, side, storey);
+                table.add_yielding(scene, side, storey);
+                table.add_corrected(scene, side, storey);
                 table.add_lean(building, side, storey);
             }
             if building.can_collapse() {
                 table.add_collapse(side);
             }
-            table.add_building(building, side, scene.peaks);
+            table.add_building(scene, side);
             table.add_foundation(scene, side);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
@@ -89,16 +91,36 @@ impl Table {
         self.add(Parameter::GroundRecord, "ground.record", (Type::String, 0.0), about).sharing(SharedRule::Scaling);
     }
 
-    fn add_floor(&mut self, building: &Building, side: Side, floor: usize, floor_forces: bool) {
-        let mass = building.mass[floor];
-        let level = building.heights.as_ref().map(|heights| heights.level(floor + 1));
-        let level = level.map_or(String::new(), |level| format!(", level {} m", six_decimals(level)));
+    /// What a master pushes with.
+    fn add_inputs(&mut self, scene: &Scene, side: Side, floor: usize) {
+        let building = scene.building(side);
         let mut rows = self.of_floor(side, floor);
-        if floor_forces {
+        if scene.floor_forces {
+            let mass = building.mass[floor];
             let (about, most) = ("external force on floor #, positive to the right", mass * rule::MOST_ACCELERATION);
             let row = rows.add(Input::Force(side, floor), "force", (NEWTON, mass * ACCELERATION), about);
             row.between(-most, most);
         }
+        if scene.restoring_corrections {
+            let (weight, input) = (weight(building), Input::Correction(side, floor));
+            let (name, about) = match building.stiffness {
+                Stiffness::Shear(_) => {
+                    ("storey_correction", "storey shear of storey # by its stiffness less that which it resists with")
+                }
+                Stiffness::Matrix(_) => {
+                    ("restoring_correction", "force on floor # by the stiffness less that which it resists with")
+                }
+            };
+            let most = weight / ACCELERATION * rule::MOST_ACCELERATION;
+            rows.add(input, name, (NEWTON, weight), about).between(-most, most);
+        }
+    }
+
+    fn add_floor(&mut self, building: &Building, side: Side, floor: usize) {
+        let mass = building.mass[floor];
+        let level = building.heights.as_ref().map(|heights| heights.level(floor + 1));
+        let level = level.map_or(String::new(), |level| format!(", level {} m", six_decimals(level)));
+        let mut rows = self.of_floor(side, floor);
         for (output, quantity, frame, scale) in [
             (Output::Displacement(side, floor), "displacement", "relative to the ground", MOVED),
             (Output::Velocity(side, floor), "velocity", "relative to the ground", MOVING),
@@ -133,25 +155,28 @@ impl Table {
     }
 
     /// What is checked where slabs hit columns.
-    fn add_struck_storey(&mut self, building: &Building, side: Side, storey: usize, peaks: bool) {
+    fn add_struck_storey(&mut self, scene: &Scene, side: Side, storey: usize) {
+        let building = scene.building(side);
         let (mut rows, force) = (self.of_floor(side, storey), (NEWTON, weight(building)));
         let output = Output::OfStorey(StoreyPeak::ColumnForce, side, storey);
         let about = "largest force so far of one slab on the columns of storey #";
         rows.add(output, "peak_column_force", force, about);
-        if peaks && matches!(building.stiffness, Stiffness::Shear(_)) {
+        if scene.peaks && !scene.restoring_corrections && matches!(building.stiffness, Stiffness::Shear(_)) {
             let output = Output::OfStorey(StoreyPeak::Shear, side, storey);
             let about = "largest storey shear of storey # so far, stiffness times drift, to compare with that force";
             rows.add(output, "peak_storey_shear", force, about);
         }
     }
 
-    fn add_building(&mut self, building: &Building, side: Side, peaks: bool) {
+    fn add_building(&mut self, scene: &Scene, side: Side) {
+        let building = scene.building(side);
         let on_soil = building.foundation.is_some();
         let (mut rows, force) = (self.of_building(side), (NEWTON, weight(building)));
         let base = if on_soil { "its foundation" } else { "the ground" };
-        let about = format!("force of the building on {base}: sum of K u + C v over its floors");
+        let corrected = if scene.restoring_corrections { ", less its corrections" } else { "" };
+        let about = format!("force of the building on {base}: sum of K u + C v over its floors{corrected}");
         rows.add(Output::BaseShear(side), "base_shear", force, &about);
-        if peaks {
+        if scene.peaks {
             let about = "largest base shear so far, of either sign, between communication points and in impacts too";
             rows.add(Output::Peak(PeakOf::BaseShear(side)), "peak_base_shear", force, about);
         }
@@ -228,8 +253,9 @@ impl Table {
     }
 
     /// What there is of a storey that can yield.
-    fn add_yielding(&mut self, building: &Building, side: Side, storey: usize) {
+    fn add_yielding(&mut self, scene: &Scene, side: Side, storey: usize) {
         use YieldingOf as Y;
+        let building = scene.building(side);
         let Some((force, ratio)) = building.yielding_storey(storey) else { return };
         let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
         let mut rows = self.of_floor(side, storey);
@@ -240,8 +266,9 @@ impl Table {
         rows.add(Parameter::PostYieldRatio(side, storey), "post_yield_ratio", scale, about)
             .under(rule::POST_YIELD_RATIO);
         let drift = (METRE, force / stiffness);
+        let shear = storey_shear(scene);
         for (of, name, scale, about) in [
-            (Y::Shear, "storey_shear", (NEWTON, force), "storey shear, without damping,"),
+            (Y::Shear, "storey_shear", (NEWTON, force), shear),
             (Y::PlasticDrift, "plastic_drift", drift, "plastic drift"),
             (Y::ResidualDrift, "residual_drift", drift, "residual drift, at which it would come to rest,"),
             (Y::Ductility, "ductility", RATIO, "largest drift so far over the yield drift"),
@@ -257,6 +284,24 @@ impl Table {
         }
         let about = "1 or -1 while storey # yields to the right or to the left, 0 while it is elastic";
         rows.add(Output::Yielding(side, storey), "yielding", COUNT, about).between(-1.0, 1.0);
+    }
+
+    /// The shear of a storey that can be corrected, beside what there is of one that can yield.
+    fn add_corrected(&mut self, scene: &Scene, side: Side, storey: usize) {
+        let building = scene.building(side);
+        if !scene.restoring_corrections || matches!(building.stiffness, Stiffness::Matrix(_)) {
+            return;
+        }
+        let (mut rows, force) = (self.of_floor(side, storey), (NEWTON, weight(building)));
+        if building.yielding_storey(storey).is_none() {
+            let output = Output::OfYielding(YieldingOf::Shear, side, storey);
+            rows.add(output, "storey_shear", force, &format!("{} of storey #", storey_shear(scene)));
+        }
+        if scene.peaks {
+            let output = Output::OfStorey(StoreyPeak::Shear, side, storey);
+            let about = "largest storey shear of storey # so far, of either sign, without damping, less its correction";
+            rows.add(output, "peak_storey_shear", force, about);
+        }
     }
 
     /// What gravity does to a storey that leans.
@@ -300,6 +345,7 @@ impl Table {
             (E::Viscous, "energy dissipated by structural damping so far"),
             (E::Impact, "work done on the contacts so far, with what their springs will give back"),
             (E::External, "work of the external floor forces so far"),
+            (E::Correction, "work so far that what resists has taken up beyond the strain energy, by the corrections"),
             (E::Hysteretic, "energy dissipated so far by storeys that have yielded"),
             (E::Gravity, "potential energy of the weights on storeys that lean, 0 or less"),
             (E::Soil, "energy dissipated so far by the dashpots of the soil, a part of energy.viscous"),
@@ -308,6 +354,7 @@ impl Table {
                 E::Hysteretic => hysteretic,
                 E::Gravity => gravity,
                 E::Soil => soil,
+                E::Correction => scene.restoring_corrections,
                 _ => true,
             };
             if !exists {
@@ -340,6 +387,15 @@ impl Row {
 /// N: the force that gives all floors of a building the typical acceleration.
 fn weight(building: &Building) -> f64 {
     building.mass.iter().sum::<f64>() * ACCELERATION
+}
+
+/// What the shear of a storey is.
+fn storey_shear(scene: &Scene) -> &'static str {
+    if scene.restoring_corrections {
+        "storey shear, without damping, less its correction,"
+    } else {
+        "storey shear, without damping,"
+    }
 }
 
 /// kg, of all floors that take part in a contact.

@@ -47,14 +47,15 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 }
 
 /// A scene without contacts is sound where links join the buildings or there is one building only that links hold, where
-/// two FMUs are coupled through their floor forces, or where a building swings freely from its initial motion.
+/// two FMUs are coupled through their floor forces, another program corrects what a building resists with, or where a building swings freely from its initial motion.
 fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     let scene = facts.scene;
     // Levels tell why `[facing]` has found none.
     let is_by_levels = scene.facing.is_some();
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
     let is_linked = scene.links.iter().any(|link| link.joins_buildings() || scene.right.is_absent());
-    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely && !is_by_levels && !is_linked {
+    let is_pushed = scene.floor_forces || scene.restoring_corrections;
+    if scene.contacts.is_empty() && !is_pushed && !swings_freely && !is_by_levels && !is_linked {
         let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
                     [[contact]] table";
         found.add("contact", "[]".to_owned(), text);

@@ -7,6 +7,7 @@ mod bilinear;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
+mod corrections;
 mod coupled;
 mod dying_out;
 mod events;

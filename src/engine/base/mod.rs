@@ -94,6 +94,8 @@ pub(super) struct Account {
     pub input: Sum,
     /// Work of the external floor forces.
     pub external: Sum,
+    /// Work that the buildings have taken up by corrections: minus that of the forces which these are.
+    pub correction: Sum,
     /// Energy dissipated by structural damping.
     pub viscous: Sum,
     /// Largest magnitude of any term so far: the residual of the balance is relative to it. Of flights over whole segments it
@@ -201,7 +203,8 @@ impl Account {
 
     /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
     pub(super) fn update_largest<const N: usize>(&mut self, others: [f64; N]) {
-        let terms = [self.initial, self.input.value, self.external.value, self.viscous.value];
+        let Account { initial, input, external, correction, viscous, largest: _ } = self;
+        let terms = [*initial, input.value, external.value, correction.value, viscous.value];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
     }
 }

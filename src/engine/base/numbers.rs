@@ -93,10 +93,10 @@ impl Episode {
 }
 
 impl Account {
-    pub(crate) fn numbers(&self) -> [f64; 8] {
-        let &Account { initial, input, external, viscous, largest } = self;
-        let ([a, b], [c, d], [e, f]) = (input.numbers(), external.numbers(), viscous.numbers());
-        [initial, a, b, c, d, e, f, largest]
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let &Account { initial, input, external, correction, viscous, largest } = self;
+        let of_sums = [input, external, correction, viscous].into_iter().flat_map(|sum| sum.numbers());
+        [initial, largest].into_iter().chain(of_sums)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Flights that follow each other, on the ground's motion and under forces on floors.
+//! Flights that follow each other, on the ground's motion and under what a master pushes with.
 
 use crate::structure::{LinearGround, LinearLoad, Motion, Structure};
 
@@ -25,11 +25,11 @@ pub struct Flights<'a> {
     pub v: &'a [f64],
     pub loads: &'a [Load],
     pub end: Motion<'a>,
-    /// The forces on floors, in scenes that have them.
+    /// The forces of a master, in scenes that have them.
     pub forces: Option<Forces<'a>>,
 }
 
-/// Forces on floors, linear in time over each flight.
+/// What a master pushes with, in the order of [`Inputs::pushes`](crate::engine::Inputs), linear in time over each flight.
 #[derive(Clone, Copy)]
 pub struct Forces<'a> {
     /// E^2 = q'''^2 + w^2 q''^2 of all modes at the start of each flight, under the ground's load and the forces'.

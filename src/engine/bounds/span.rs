@@ -3,14 +3,15 @@
 //!
 //! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation while the
 //! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, sum
-//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. The accelerations that forces give to
-//! the floors on which they act are linear in time.
+//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. What a master's pushes add to
+//! accelerations and shears at once is linear in time.
 //!
 //! Loads may jump from one flight to the next: then a quantity is read with the load at the end of the one, and with that at the
 //! start of the other.
 
 use crate::engine::bounds::flights::{Flights, Forces};
-use crate::engine::quantities::span_rows::{FourModes, PushedFloors, SpanBlock};
+use crate::engine::quantities::pushed::Pushed;
+use crate::engine::quantities::span_rows::{FourModes, SpanBlock};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane, LinearGround, Motion};
 
@@ -34,7 +35,7 @@ pub struct Span<const N: usize> {
     longest: f64,
     /// Whether motion or acceleration jump anywhere.
     jumps: bool,
-    /// Whether forces act on floors.
+    /// Whether a master pushes.
     is_pushed: bool,
 }
 
@@ -122,8 +123,8 @@ impl<const N: usize> Span<N> {
     ) {
         bound_blocks((blocks, rest), sizes, out);
         for (block, out) in blocks.iter().zip(out).filter(|_| self.is_pushed) {
-            if let Some(floors) = block.pushed {
-                let [starts, ends] = self.pushes(flights, &floors);
+            if let Some(pushed) = &block.pushed {
+                let [starts, ends] = self.pushes(flights, pushed);
                 let none = [0.0; LANES];
                 let added =
                     starts.iter().chain(&ends).fold(none, |most, push| each(|i| larger(most[i], push[i].abs())));
@@ -132,14 +133,14 @@ impl<const N: usize> Span<N> {
         }
     }
 
-    /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2.
-    fn pushes(&self, flights: &Flights, floors: &PushedFloors) -> [[Lane; N]; 2] {
+    /// What pushes add at the starts and at the ends of the flights.
+    fn pushes(&self, flights: &Flights, pushed: &Pushed) -> [[Lane; N]; 2] {
         let mut pushes = [[[0.0; LANES]; N]; 2];
         let [starts, ends] = &mut pushes;
         for t in 0..self.count {
             if let Some((acting, rates)) = flights.forces.and_then(|forces| forces.acting(self.from + t)) {
                 let length = flights.load(self.from + t).length;
-                let (first, rate) = (floors.accelerations(acting), floors.accelerations(rates));
+                let (first, rate) = (pushed.add_up(|i| acting[i]), pushed.add_up(|i| rates[i]));
                 (starts[t], ends[t]) = (first, each(|i| first[i] + rate[i] * length));
             }
         }
@@ -155,8 +156,8 @@ impl<const N: usize> Span<N> {
         coarse: &Lane,
     ) -> BlockBounds<N> {
         let values = values_at(&block.rows, motion, at_rest);
-        let mut highest = match block.pushed.filter(|_| self.is_pushed) {
-            Some(floors) => highest_of_pushed(&values, &self.pushes(flights, &floors)),
+        let mut highest = match block.pushed.as_ref().filter(|_| self.is_pushed) {
+            Some(pushed) => highest_of_pushed(&values, &self.pushes(flights, pushed)),
             None => highest_at(&values),
         };
         // Both ends of a gap are those of the flights beside it.
@@ -263,7 +264,7 @@ fn highest_at<const N: usize>(values: &[[f64; N]; LANES]) -> [[f64; N]; LANES] {
     highest
 }
 
-/// The same with what forces add to accelerations at the starts and at the ends.
+/// The same with what pushes add at the starts and at the ends.
 fn highest_of_pushed<const N: usize>(values: &[[f64; N]; LANES], [starts, ends]: &[[Lane; N]; 2]) -> [[f64; N]; LANES] {
     let mut highest = [[0.0; N]; LANES];
     for k in 0..N - 1 {

@@ -1,5 +1,5 @@
 //! What a master sets, held or linear in time until it sets it again: the ground acceleration where there is no record, and
-//! forces on the floors.
+//! what it pushes on the buildings with: forces on the floors, and corrections of what the buildings resist with.
 
 use crate::scene::Scene;
 use crate::structure::Side;
@@ -13,6 +13,9 @@ pub enum Input {
     GroundAcceleration,
     /// Force on a floor, counted from 0, N, positive to the right; acts where the scene has floor forces.
     Force(Side, usize),
+    /// By how much a storey of a shear building, or a floor of one with a stiffness matrix, counted from 0, resists with
+    /// less than its stiffness says, N; acts where the scene has restoring corrections.
+    Correction(Side, usize),
 }
 
 /// The inputs of a master, each constant or linear in time until it is set again.
@@ -22,6 +25,8 @@ pub struct Inputs {
     pub(in crate::engine) ground_acceleration: LinearInput,
     /// Forces on the floors, N, positive to the right: left floors, then right floors; empty without floor forces.
     pub(in crate::engine) floor_forces: Vec<LinearInput>,
+    /// Corrections of storeys, or floors, N, in the same order; empty without corrections.
+    pub(in crate::engine) corrections: Vec<LinearInput>,
     /// Number of floors of the left building.
     pub(in crate::engine) left_floors: usize,
 }
@@ -29,35 +34,34 @@ pub struct Inputs {
 impl Inputs {
     /// Those of a scene: all 0, until they are set.
     pub fn new(scene: &Scene) -> Inputs {
-        Inputs::of([&scene.left, &scene.right].map(|building| building.mass.len()), scene.floor_forces)
+        let floors = [&scene.left, &scene.right].map(|building| building.mass.len());
+        Inputs::of(floors, scene.floor_forces, scene.restoring_corrections)
     }
 
-    /// Those of buildings with so many floors, with forces on them or without.
-    pub(in crate::engine) fn of([left, right]: [usize; 2], has_floor_forces: bool) -> Inputs {
-        let forces = if has_floor_forces { left + right } else { 0 };
-        let (ground_acceleration, floor_forces) = (LinearInput::default(), vec![LinearInput::default(); forces]);
-        Inputs { ground_acceleration, floor_forces, left_floors: left }
+    /// Those of buildings with so many floors, with forces on them and corrections or without.
+    pub(in crate::engine) fn of([left, right]: [usize; 2], has_forces: bool, has_corrections: bool) -> Inputs {
+        let lines = |exist: bool| vec![LinearInput::default(); if exist { left + right } else { 0 }];
+        let (floor_forces, corrections) = (lines(has_forces), lines(has_corrections));
+        Inputs { ground_acceleration: LinearInput::default(), floor_forces, corrections, left_floors: left }
     }
 
-    /// Index of a floor's force.
-    pub(in crate::engine) fn place(&self, side: Side, floor: usize) -> usize {
-        if side == Side::Left { floor } else { self.left_floors + floor }
-    }
-
-    /// The same, if there is a force on such a floor.
-    fn place_of(&self, side: Side, floor: usize) -> Option<usize> {
-        let is_of_side = side == Side::Right || floor < self.left_floors;
-        Some(self.place(side, floor)).filter(|&place| is_of_side && place < self.floor_forces.len())
+    /// Index of a floor's force, and of a storey's correction, if there can be one on such a floor.
+    fn place(&self, side: Side, floor: usize) -> Option<usize> {
+        match side {
+            Side::Left => (floor < self.left_floors).then_some(floor),
+            Side::Right => Some(self.left_floors + floor),
+        }
     }
 
     /// An input as a function of time; 0 where there is no such input.
     pub fn get(&self, input: Input) -> LinearInput {
+        let of = |lines: &[LinearInput], side, floor| self.place(side, floor).and_then(|i| lines.get(i).copied());
         match input {
-            Input::GroundAcceleration => self.ground_acceleration,
-            Input::Force(side, floor) => {
-                self.place_of(side, floor).map_or_else(LinearInput::default, |i| self.floor_forces[i])
-            }
+            Input::GroundAcceleration => Some(self.ground_acceleration),
+            Input::Force(side, floor) => of(&self.floor_forces, side, floor),
+            Input::Correction(side, storey) => of(&self.corrections, side, storey),
         }
+        .unwrap_or_default()
     }
 
     /// Sets the value of an input at a time, s. It is constant from now on, unless a rate is set for the same time.
@@ -71,24 +75,37 @@ impl Inputs {
     }
 
     fn change(&mut self, input: Input, change: impl FnOnce(&mut LinearInput)) {
-        match input {
-            Input::GroundAcceleration => change(&mut self.ground_acceleration),
-            Input::Force(side, floor) => {
-                if let Some(place) = self.place_of(side, floor) {
-                    change(&mut self.floor_forces[place]);
-                }
-            }
+        let line = match input {
+            Input::GroundAcceleration => Some(&mut self.ground_acceleration),
+            Input::Force(side, floor) => self.place(side, floor).and_then(|i| self.floor_forces.get_mut(i)),
+            Input::Correction(side, storey) => self.place(side, storey).and_then(|i| self.corrections.get_mut(i)),
+        };
+        if let Some(line) = line {
+            change(line);
         }
+    }
+
+    /// All that a master pushes with, in one order: forces on floors, then corrections.
+    pub(in crate::engine) fn pushes(&self) -> impl Iterator<Item = &LinearInput> {
+        self.floor_forces.iter().chain(&self.corrections)
+    }
+
+    /// One of these.
+    pub(in crate::engine) fn push(&self, number: usize) -> &LinearInput {
+        let correction = || &self.corrections[number - self.floor_forces.len()];
+        self.floor_forces.get(number).unwrap_or_else(correction)
     }
 
     /// The values set so far hold for this time, s.
     pub fn move_to(&mut self, time: f64) {
-        self.floor_forces.iter_mut().chain([&mut self.ground_acceleration]).for_each(|input| input.since = time);
+        let Inputs { ground_acceleration, floor_forces, corrections, left_floors: _ } = self;
+        let all = floor_forces.iter_mut().chain(corrections).chain([ground_acceleration]);
+        all.for_each(|input| input.since = time);
     }
 
     /// Whether any changes with time.
     pub fn are_moving(&self) -> bool {
-        self.floor_forces.iter().chain([&self.ground_acceleration]).any(|input| input.slope != 0.0)
+        self.pushes().chain([&self.ground_acceleration]).any(|input| input.slope != 0.0)
     }
 
     /// Whether they can be those of a scene: as many as it has, and finite numbers.
@@ -98,13 +115,14 @@ impl Inputs {
 
     /// Whether there are as many as of a scene whose inputs `others` are.
     pub(in crate::engine) fn are_as_many_as(&self, others: &Inputs) -> bool {
-        (self.floor_forces.len(), self.left_floors) == (others.floor_forces.len(), others.left_floors)
+        let sizes = |of: &Inputs| [of.floor_forces.len(), of.corrections.len(), of.left_floors];
+        sizes(self) == sizes(others)
     }
 
     /// All of their numbers.
     pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
-        floor_forces.iter().chain([ground_acceleration]).flat_map(|line| {
+        let Inputs { ground_acceleration, floor_forces, corrections, left_floors: _ } = self;
+        floor_forces.iter().chain(corrections).chain([ground_acceleration]).flat_map(|line| {
             let &LinearInput { value, slope, since } = line;
             [value, slope, since]
         })
@@ -187,12 +205,14 @@ mod tests {
 
     #[test]
     fn an_input_that_there_is_not_changes_no_other() {
-        for has_floor_forces in [true, false] {
-            let mut inputs = Inputs::of([1, 2], has_floor_forces);
+        for has in [true, false] {
+            let mut inputs = Inputs::of([1, 2], has, has);
             for (side, floor) in [(Side::Left, 1), (Side::Right, 2)] {
-                inputs.set(Input::Force(side, floor), 3.0, 0.0);
-                inputs.set_rate(Input::Force(side, floor), 3.0, 0.0);
-                assert_eq!(inputs.get(Input::Force(side, floor)), LinearInput::default());
+                for input in [Input::Force(side, floor), Input::Correction(side, floor)] {
+                    inputs.set(input, 3.0, 0.0);
+                    inputs.set_rate(input, 3.0, 0.0);
+                    assert_eq!(inputs.get(input), LinearInput::default());
+                }
             }
             assert!(inputs.numbers().all(|number| number == 0.0), "{inputs:?}");
         }

@@ -26,7 +26,7 @@ impl System {
 
     /// Whether the work over a flight of any length is found at once: where damping couples modes, that takes matrices.
     fn has_work_of_any_length(&self) -> bool {
-        self.structure.is_classical() && !self.floor_forces
+        self.structure.is_classical() && !self.is_pushed
     }
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand

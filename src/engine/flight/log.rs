@@ -8,7 +8,7 @@
 
 use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::numerics::identity::next_identity;
-use crate::structure::{LANES, Motion};
+use crate::structure::Motion;
 
 /// Number of entries of a log: that many, so many more for each lane of modes, and at most. A long log leaves less to be
 /// searched, which counts where there are many quantities; a short one touches less memory for the first time, which counts in
@@ -30,33 +30,33 @@ pub struct FlightLog {
     q: Vec<f64>,
     v: Vec<f64>,
     loads: Vec<Load>,
-    /// In scenes with forces on floors.
+    /// In scenes in which a master pushes on the buildings.
     forces: Option<ForceLog>,
     /// A number that no other log has had, and this one not before it was last emptied.
     pub identity: u64,
 }
 
-/// The forces on floors during the logged flights, as [`Forces`] has them.
+/// The forces of a master during the logged flights, as [`Forces`] has them.
 #[derive(Debug)]
 struct ForceLog {
-    /// Number of floors on which they may act.
-    floors: usize,
+    /// Number of them.
+    count: usize,
     energies: Vec<f64>,
     of: Vec<usize>,
     sets: Vec<f64>,
 }
 
 impl FlightLog {
-    /// For vectors of that many lanes, with forces on so many floors.
-    pub fn new(lanes: usize, floors: usize) -> FlightLog {
-        let numbers = 2 * lanes + if floors == 0 { 0 } else { lanes + 2 * (floors + LANES) };
+    /// For vectors of that many lanes, with so many forces of a master.
+    pub fn new(lanes: usize, forces: usize) -> FlightLog {
+        let numbers = 2 * lanes + if forces == 0 { 0 } else { lanes + 2 * forces };
         let wanted = (FEW + FOR_LANE * lanes).min(MOST);
         let most = if lanes == 0 { 0 } else { wanted.min(MOST_BYTES / (8 * numbers)).max(LEAST) };
-        FlightLog::with_room((lanes, floors), most)
+        FlightLog::with_room((lanes, forces), most)
     }
 
     /// A log for so many entries.
-    pub fn with_room((lanes, floors): (usize, usize), most: usize) -> FlightLog {
+    pub fn with_room((lanes, forces): (usize, usize), most: usize) -> FlightLog {
         let room = || Vec::with_capacity(most * lanes);
         FlightLog {
             lanes,
@@ -64,7 +64,7 @@ impl FlightLog {
             q: room(),
             v: room(),
             loads: Vec::with_capacity(most),
-            forces: (floors > 0).then(|| ForceLog::new(lanes, floors, most)),
+            forces: (forces > 0).then(|| ForceLog::new(lanes, forces, most)),
             identity: next_identity(),
         }
     }
@@ -120,7 +120,7 @@ impl FlightLog {
         self.loads.push(load);
     }
 
-    /// Adds the forces on floors during the flight that has just been added, N, with their rates, and the energies of its modes,
+    /// Adds the forces of a master during the flight that has just been added, N, with their rates, and the energies of its modes,
     /// which are to be written.
     pub fn push_forces(&mut self, forces: impl Iterator<Item = (f64, f64)>, set_energies: impl FnOnce(&mut [f64])) {
         if let Some(of) = &mut self.forces {
@@ -131,7 +131,7 @@ impl FlightLog {
         }
     }
 
-    /// Ends the last flight at a motion, where something other than the ground and forces on floors is about to move the
+    /// Ends the last flight at a motion, where something other than the ground and a master's forces is about to move the
     /// buildings.
     pub fn close(&mut self, motion: Motion) {
         if let Some(load) = self.loads.last().copied().filter(|load| load.length > 0.0) {
@@ -143,34 +143,33 @@ impl FlightLog {
     /// The logged flights from an entry on; the last one ends at the base, with the motion `end`.
     pub fn flights_from<'a>(&'a self, entry: usize, end: Motion<'a>) -> Flights<'a> {
         let from = entry * self.lanes;
-        let forces = self.forces.as_ref().map(|ForceLog { floors, energies, of, sets }| Forces {
+        let forces = self.forces.as_ref().map(|ForceLog { count, energies, of, sets }| Forces {
             energies: &energies[from..],
             of: &of[entry..],
             sets,
-            width: floors + LANES,
+            width: *count,
         });
         Flights { lanes: self.lanes, q: &self.q[from..], v: &self.v[from..], loads: &self.loads[entry..], end, forces }
     }
 }
 
 impl ForceLog {
-    fn new(lanes: usize, floors: usize, most: usize) -> ForceLog {
-        let set = 2 * (floors + LANES);
-        let mut sets = Vec::with_capacity((most + 2) * set);
-        sets.resize(set, 0.0);
-        ForceLog { floors, energies: Vec::with_capacity(most * lanes), of: Vec::with_capacity(most), sets }
+    fn new(lanes: usize, count: usize, most: usize) -> ForceLog {
+        let mut sets = Vec::with_capacity((most + 2) * 2 * count);
+        sets.resize(2 * count, 0.0);
+        ForceLog { count, energies: Vec::with_capacity(most * lanes), of: Vec::with_capacity(most), sets }
     }
 
     fn truncate(&mut self, count: usize, lanes: usize) {
         self.energies.truncate(count * lanes);
         self.of.truncate(count);
         let used = self.of.iter().max().map_or(1, |last| last + 1);
-        self.sets.truncate(used * 2 * (self.floors + LANES));
+        self.sets.truncate(used * 2 * self.count);
     }
 
-    /// Notes the forces on all floors, or on none, as those of the next flight; those of the last one, or none, need no new set.
+    /// Notes all forces, or none, as those of the next flight; those of the last one, or none, need no new set.
     fn push_set(&mut self, forces: impl Iterator<Item = (f64, f64)>) {
-        let (start, width) = (self.sets.len(), self.floors + LANES);
+        let (start, width) = (self.sets.len(), self.count);
         self.sets.resize(start + 2 * width, 0.0);
         let (before, new) = self.sets.split_at_mut(start);
         let (values, rates) = new.split_at_mut(width);
@@ -191,8 +190,8 @@ impl ForceLog {
 
 impl Clone for FlightLog {
     fn clone(&self) -> FlightLog {
-        let floors = self.forces.as_ref().map_or(0, |forces| forces.floors);
-        let mut log = FlightLog::with_room((self.lanes, floors), self.most);
+        let forces = self.forces.as_ref().map_or(0, |forces| forces.count);
+        let mut log = FlightLog::with_room((self.lanes, forces), self.most);
         log.q.extend_from_slice(&self.q);
         log.v.extend_from_slice(&self.v);
         log.loads.extend_from_slice(&self.loads);

@@ -50,12 +50,26 @@ impl Instant<'_> {
         let impact = contacts.map(|p| self.contact(p).dissipated_energy).sum();
         account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
         let Account { initial, largest, .. } = account;
-        // Yielding goes on for tens of thousands of steps: there the rounding of plain sums would show.
-        let is_long = !system.elements.is_empty();
+        // Yielding, and another program beside the FMU, go on for tens of thousands of steps: there the rounding of plain sums would show.
+        let is_long = !system.elements.is_empty() || !system.corrections.is_empty();
         let of = |sum: Sum| if is_long { sum.exact() } else { sum.value };
-        let [input, external, viscous] = [account.input, account.external, account.viscous].map(of);
-        let imbalance = initial + input + external - kinetic - (strain + gravity) - viscous - impact - hysteretic;
+        let [input, external, correction, viscous] =
+            [account.input, account.external, account.correction, account.viscous].map(of);
+        let given = initial + input + external;
+        let imbalance = given - kinetic - (strain + gravity) - viscous - impact - hysteretic - correction;
         let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, gravity, soil, residual }
+        EnergyPoint {
+            input,
+            kinetic,
+            strain,
+            viscous,
+            impact,
+            external,
+            correction,
+            hysteretic,
+            gravity,
+            soil,
+            residual,
+        }
     }
 }

@@ -15,8 +15,8 @@ impl Instant<'_> {
     /// The rates of the energy account at a point, once all other rates are known; `None` without an account.
     ///
     /// With <a, b> the sum of masses times a and b, and K, C per unit of mass, these are the derivatives of the kinetic
-    /// energy <v, v>/2 and the strain energy <u, K u>/2, the powers <v, C v> of damping, -<1, v> a(t) of the ground and
-    /// <f, v> of the floor forces f, and the rates of these powers.
+    /// energy <v, v>/2 and the strain energy <u, K u>/2, the powers <v, C v> of damping, -<1, v> a(t) of the ground,
+    /// <f, v> of the floor forces f and -<s, v> of the corrections s, and the rates of these powers.
     pub(super) fn differentiate_energy(&self, rates: &PointRates, work: &mut Buffers) -> Option<EnergyRates> {
         let Instant { model: Model { system, .. }, state, point } = *self;
         state.base.energy?;
@@ -39,10 +39,23 @@ impl Instant<'_> {
         let gravity = self.gravity_rates(rates);
         let strain = [strain[0] - gravity[0], strain[1] - gravity[1]];
         let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
-        load.fill(0.0);
-        slope.fill(0.0);
-        system.add_floor_forces(&state.inputs, coordinates, |force| force.at(state.time), load);
-        system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
+        let mut pushed = |is_by_forces: bool| {
+            load.fill(0.0);
+            slope.fill(0.0);
+            let at = |push: &LinearInput| push.at(state.time);
+            match is_by_forces {
+                true => {
+                    system.add_floor_forces(&state.inputs, coordinates, at, load);
+                    system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
+                }
+                false => {
+                    system.add_corrections(&state.inputs, coordinates, at, load);
+                    system.add_corrections(&state.inputs, coordinates, LinearInput::slope, slope);
+                }
+            }
+            [inner(load, v), inner(slope, v) + inner(load, a)]
+        };
+        let [external, correcting] = [true, false].map(&mut pushed);
         let ones = system.participation(coordinates);
         let (momentum, push) = (inner(ones, v), inner(ones, a));
         let (ground, ground_rate) = (point.ground_acceleration, rates.ground_acceleration[0]);
@@ -55,7 +68,8 @@ impl Instant<'_> {
         all[E::Gravity] = gravity;
         all[E::Soil] = self.energy_rates_of_soil(rates);
         all[E::Impact] = [sum(0), sum(1)];
-        all[E::External] = [inner(load, v), inner(slope, v) + inner(load, a)];
+        all[E::External] = external;
+        all[E::Correction] = correcting.map(|rate| -rate);
         Some(all)
     }
 

@@ -1,5 +1,5 @@
-//! Direct feedthrough: accelerations and reactions between held floors that depend on the floor forces at the same
-//! instant.
+//! Direct feedthrough: accelerations and reactions between held floors that depend on the floor forces and corrections at
+//! the same instant, and shears that are less by their corrections.
 //!
 //! At a given instant, for a given motion, both are linear in the forces as long as the same rigid pairs press. The
 //! ground's acceleration moves all floors alike: absolute accelerations and reactions have feedthrough from it only where
@@ -9,12 +9,12 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::inputs::Input;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
-use crate::engine::output::outputs::{ContactOutput, FoundationOutput, Output};
+use crate::engine::output::outputs::{ContactOutput, FoundationOutput, Output, YieldingOf};
 use crate::engine::pairs::row::relative;
 use crate::engine::system::buffers::Buffers;
 use crate::scene::Place;
 
-/// Accelerations and reactions by some forces on the floors alone, for a given motion.
+/// Accelerations and reactions by some forces on the floors alone, and corrections of shears, for a given motion.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
     /// Reaction of each contact, N, positive in compression.
@@ -23,13 +23,15 @@ pub struct Response {
     accelerations: Vec<f64>,
     /// Acceleration of the ground, m/s2.
     ground: f64,
+    /// Of storeys or floors, N, in the order of the inputs.
+    corrections: Vec<f64>,
     /// Scratch vectors, kept for the next call.
     work: Option<Box<Buffers>>,
 }
 
 impl Instant<'_> {
     /// Works out how the outputs of this instant answer to changes of inputs at the same instant, for the motion as it
-    /// is: to accelerations of the ground, m/s2, and forces on floors, N. The rigid pairs that press now go on
+    /// is: to accelerations of the ground, m/s2, forces on floors and corrections, N. The rigid pairs that press now go on
     /// pressing.
     ///
     /// ```
@@ -50,8 +52,12 @@ impl Instant<'_> {
     pub fn respond(&self, changes: impl IntoIterator<Item = (Input, f64)>, response: &mut Response) {
         let system = &self.model.system;
         let floors = &system.structure.floors;
-        let Response { reactions, accelerations, ground, .. } = response;
-        for (vector, length) in [(reactions, system.pairs.len()), (&mut *accelerations, system.structure.lanes)] {
+        let Response { reactions, accelerations, ground, corrections, .. } = response;
+        for (vector, length) in [
+            (reactions, system.pairs.len()),
+            (&mut *accelerations, system.structure.lanes),
+            (&mut *corrections, system.corrections.len()),
+        ] {
             vector.clear();
             vector.resize(length, 0.0);
         }
@@ -66,6 +72,12 @@ impl Instant<'_> {
                 Input::Force(side, floor) => {
                     let lane = floors.lane(side as usize, floor);
                     accelerations[lane] += change * floors.inverse_mass(lane);
+                }
+                Input::Correction(side, storey) => {
+                    if let Some(number) = system.number_of_correction((side, storey)) {
+                        system.corrections[number].row.push(Coordinates::Floors, change, accelerations);
+                        corrections[number] += change;
+                    }
                 }
             }
         }
@@ -105,6 +117,15 @@ impl Model {
                 lane.map_or(0.0, |lane| response.accelerations[lane] + response.ground)
             }
             Output::Contact(p, ContactOutput::Force) => response.reactions[p],
+            Output::BaseShear(side) => {
+                let of_side =
+                    self.system.corrections.iter().zip(&response.corrections).filter(|(of, _)| of.side == side);
+                -of_side.fold(0.0, |sum, (of, change)| sum + of.on_base() * change)
+            }
+            Output::OfYielding(YieldingOf::Shear, side, storey) => {
+                let number = self.system.number_of_correction((side, storey));
+                number.map_or(0.0, |number| -response.corrections[number])
+            }
             _ => 0.0,
         }
     }

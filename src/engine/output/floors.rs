@@ -45,8 +45,8 @@ impl<'a> Instant<'a> {
     /// Base shear, N: the force of the building on the ground.
     #[inline(never)]
     pub(super) fn base_shear(&self, side: Side) -> f64 {
-        let Instant { model: Model { system, .. }, point, .. } = self;
-        match point.coordinates {
+        let Instant { model: Model { system, .. }, state, point } = self;
+        let resisted = match point.coordinates {
             Coordinates::Modes => {
                 let at_rest = match point.elements.is_empty() {
                     true => 0.0,
@@ -55,7 +55,8 @@ impl<'a> Instant<'a> {
                 system.structure.base_shear(side, &point.q, &point.v) + at_rest
             }
             Coordinates::Floors => system.structure.floors.base_shear(side as usize, &self.accelerations().resisted),
-        }
+        };
+        resisted - system.correction_of_base(&state.inputs, side, |line| line.at(state.time))
     }
 
     /// Displacement (`quantity` 0) or velocity (1) of a lane; both are worked out together, in one pass over its row.

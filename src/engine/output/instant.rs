@@ -1,7 +1,7 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
 use crate::engine::model::Model;
-use crate::engine::output::outputs::{ContactOutput, FoundationOutput, LinkOutput, Output, Rates};
+use crate::engine::output::outputs::{ContactOutput, FoundationOutput, LinkOutput, Output, Rates, YieldingOf};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
@@ -151,6 +151,9 @@ impl<'a> Instant<'a> {
         if of == StoreyPeak::ColumnForce {
             return self.hardest_on(place).map_or([0.0; 2], |(p, _)| rates.contacts[p][ContactOutput::PeakForce]);
         }
+        if of == StoreyPeak::Shear && self.is_corrected(place) {
+            return self.peak_rates(rates, PeakOf::StoreyShear(place.0, place.1));
+        }
         if let (StoreyPeak::Shear, Some(rates)) = (of, self.yielded_shear_rates(rates, place)) {
             return rates;
         }
@@ -166,6 +169,7 @@ impl<'a> Instant<'a> {
             PeakOf::Drift(side, storey) => (self.drift((side, storey)), self.drift_rates(rates, (side, storey))),
             PeakOf::Acceleration(side, floor) => of_output(Output::Acceleration(side, floor)),
             PeakOf::BaseShear(side) => of_output(Output::BaseShear(side)),
+            PeakOf::StoreyShear(side, storey) => of_output(Output::OfYielding(YieldingOf::Shear, side, storey)),
             PeakOf::LinkDisplacement(l) => of_output(Output::Link(l, LinkOutput::Displacement)),
             PeakOf::LinkForce(l) => of_output(Output::Link(l, LinkOutput::Force)),
         };

@@ -24,7 +24,7 @@ pub(crate) struct FloorMotions {
     pub acceleration: Vec<KnownBlock<1>>,
     /// Number of rows of the modal matrix that have been multiplied.
     pub rows_read: Cell<u64>,
-    /// Load by floor and contact forces per unit of mass, in the coordinates of the point; meaningful where
+    /// Load by a master's pushes and contact forces per unit of mass, in the coordinates of the point; meaningful where
     /// `is_loaded`.
     pub load: Vec<f64>,
     /// The accelerations, once they have been worked out.

@@ -64,7 +64,7 @@ impl Model {
         if !is_flight {
             Instant { model: self, state, point }.note_contacts(elapsed, &mut work);
         }
-        if !is_flight || self.system.floor_forces {
+        if !is_flight || self.system.is_pushed {
             self.read_load(state, point);
         }
         point.work.replace(Some(work));
@@ -105,16 +105,16 @@ impl Model {
         point.peaks = PeakCell::default();
     }
 
-    /// Works out the load by the floor and contact forces, on which accelerations depend; open contacts have no force.
+    /// Works out the load by a master's pushes and contact forces, on which accelerations depend; open contacts have no force.
     fn read_load(&self, state: &State, point: &mut Point) {
         let Point { floors, contacts, coordinates, .. } = point;
         let forces = || {
             let closed = state.base.contacts.iter().zip(&*contacts).enumerate().filter(|(_, (c, _))| c.in_contact());
             closed.map(|(p, (_, known))| (p, known.get().shown.force)).filter(|(_, force)| *force != 0.0)
         };
-        if self.system.floor_forces || forces().next().is_some() {
+        if self.system.is_pushed || forces().next().is_some() {
             let load = floors.start_load();
-            self.system.add_floor_forces(&state.inputs, *coordinates, |force| force.at(state.time), load);
+            self.system.add_pushes(&state.inputs, *coordinates, |push| push.at(state.time), load);
             forces().for_each(|(p, force)| self.system.push_apart_by(p, *coordinates, force, load));
         }
     }

@@ -50,7 +50,7 @@ pub enum Output {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum YieldingOf {
-    /// Storey shear, N, without damping.
+    /// Storey shear, N, without damping: also of one that can be corrected and does not yield.
     Shear,
     /// Plastic drift, m.
     PlasticDrift,
@@ -219,6 +219,8 @@ quantities! {
     Impact impact: f64,
     /// Work of the external floor forces, J.
     External external: f64,
+    /// Work that the buildings have taken up by corrections so far, J: with `strain` that of what resists in their place.
+    Correction correction: f64,
     /// Energy dissipated by storeys that have yielded, J.
     Hysteretic hysteretic: f64,
     /// Potential energy of the weights on storeys that lean, J: 0 or less.

@@ -100,7 +100,7 @@ impl Model {
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, MotionMut { q: &mut q, v: &mut v });
-        let is_folded = self.peaks().logs_flights() && !self.system.floor_forces;
+        let is_folded = self.peaks().logs_flights() && !self.system.is_pushed;
         let finder = self.peaks();
         finder.with_flight(base, inputs, (length, Motion { q: &q, v: &v }), work, |whole, work| match is_folded {
             true => finder.fold(&part, whole.rest, Some(whole), peaks, work),

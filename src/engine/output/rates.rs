@@ -109,7 +109,7 @@ impl Instant<'_> {
             for (load, share) in load.iter_mut().zip(system.participation(coordinates)) {
                 *load = -share * ground_acceleration[0];
             }
-            system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
+            system.add_pushes(&state.inputs, coordinates, LinearInput::slope, load);
         }
         for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
             let [v, a] = contact[C::Penetration];
@@ -146,7 +146,7 @@ impl Instant<'_> {
 
     /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
     pub(super) fn base_shear_rates(&self, rates: &PointRates, side: Side) -> Rates {
-        let Instant { model: Model { system, .. }, point, .. } = *self;
+        let Instant { model: Model { system, .. }, state, point } = *self;
         let PointRates { acceleration, jerk, resisted, .. } = rates;
         let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.elements, side, motion);
         let [first, second] = match point.coordinates {
@@ -156,7 +156,8 @@ impl Instant<'_> {
                 [0, 1].map(|order| system.structure.floors.base_shear(side as usize, &resisted[order]))
             }
         };
-        [first, if rates.is_beginning { 0.0 } else { second }]
+        let corrected = system.correction_of_base(&state.inputs, side, LinearInput::slope);
+        [first - corrected, if rates.is_beginning { 0.0 } else { second }]
     }
 }
 

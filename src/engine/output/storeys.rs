@@ -12,6 +12,9 @@ use crate::structure::Side;
 impl<'a> Instant<'a> {
     /// The value of a storey's quantity; 0 where the scene does not have what it is made of.
     pub(super) fn storey_peak(&self, of: StoreyPeak, place: (Side, usize)) -> f64 {
+        if of == StoreyPeak::Shear && self.is_corrected(place) {
+            return self.peak(PeakOf::StoreyShear(place.0, place.1));
+        }
         if let (StoreyPeak::Shear, Some(shear)) = (of, self.yielded_shear(place)) {
             return shear;
         }
@@ -21,6 +24,11 @@ impl<'a> Instant<'a> {
             }
             StoreyPeak::ColumnForce => self.hardest_on(place).map_or(0.0, |(_, force)| force),
         }
+    }
+
+    /// Whether a storey can be corrected: then its shear is watched by itself.
+    pub(super) fn is_corrected(&self, place: (Side, usize)) -> bool {
+        self.model.system.number_of_correction(place).is_some()
     }
 
     /// Drift of a storey, m.

@@ -1,6 +1,7 @@
 //! The storeys that can yield at an observed time.
 
 use crate::engine::base::element::{ElementState, Sense};
+use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{Rates, YieldingOf};
@@ -11,9 +12,16 @@ use crate::engine::yielding::element::{Element, Present};
 use crate::structure::Side;
 
 impl<'a> Instant<'a> {
-    /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, the shear
-    /// is that of its drift, everything else 0.
+    /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, or as it can
+    /// only be corrected, the shear is that of its drift, everything else 0.
     pub(super) fn of_yielding(&self, of: YieldingOf, place: (Side, usize)) -> f64 {
+        let correction =
+            if of == YieldingOf::Shear { self.correction_of(place, |line| line.at(self.state.time)) } else { 0.0 };
+        self.of_storey(of, place) - correction
+    }
+
+    /// The same without correction.
+    fn of_storey(&self, of: YieldingOf, place: (Side, usize)) -> f64 {
         let Some((storey, present)) = self.yielding_storey(place) else {
             return if of == YieldingOf::Shear { self.elastic_stiffness(place) * self.drift(place) } else { 0.0 };
         };
@@ -35,8 +43,19 @@ impl<'a> Instant<'a> {
         self.yielding_storey(place).map_or(0.0, |(_, (now, _))| flow(now))
     }
 
+    /// A correction, or its rate, of a storey or floor; 0 where the scene has none.
+    fn correction_of(&self, place: (Side, usize), part: impl Fn(&LinearInput) -> f64) -> f64 {
+        self.model.system.number_of_correction(place).map_or(0.0, |number| part(&self.state.inputs.corrections[number]))
+    }
+
     /// Rates of a quantity of a storey.
     pub(super) fn yielding_rates(&self, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
+        let [first, second] = self.storey_rates(rates, of, place);
+        let correction = if of == YieldingOf::Shear { self.correction_of(place, LinearInput::slope) } else { 0.0 };
+        [first - correction, second]
+    }
+
+    fn storey_rates(&self, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
         let Some((storey, (now, _))) = self.yielding_storey(place) else {
             let factor = if of == YieldingOf::Shear { self.elastic_stiffness(place) } else { 0.0 };
             return self.drift_rates(rates, place).map(|rate| factor * rate);

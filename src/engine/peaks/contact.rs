@@ -4,12 +4,12 @@
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::ContactStep;
-use crate::engine::peaks::room::{FloorRoom, OpenQuantity, PeakRoom, PeakWork};
+use crate::engine::peaks::room::{FloorRoom, FloorState, OpenQuantity, PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
@@ -59,9 +59,9 @@ impl PeakFinder<'_> {
         self.find_open(&part, &mut peaks, work);
         self.search_noted(&part, &mut peaks, work);
         work.peaks.starts = starts;
-        // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, floor forces
-        // and another position of rest may.
-        if self.system.rigid.pairs.is_empty() && !self.system.floor_forces && !base.is_yielding() {
+        // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, a master's
+        // pushes and another position of rest may.
+        if self.system.rigid.pairs.is_empty() && !self.system.is_pushed && !base.is_yielding() {
             work.peaks.floors.keep([base.segment.start, end]);
         }
         base.peaks = peaks;
@@ -110,11 +110,14 @@ impl PeakFinder<'_> {
                     (PeakOf::Drift(side, floor), start.drift[lane]),
                     (PeakOf::Acceleration(side, floor), start.resisted[lane] + pushed[lane]),
                 ];
-                // Accelerations depend on the floor forces, which may have just been set.
-                let known = if self.system.floor_forces { &now[..2] } else { &now };
+                // Accelerations depend on what a master pushes with, which may have just been set.
+                let known = if self.system.is_pushed { &now[..2] } else { &now };
                 known.iter().for_each(|&(of, value)| peaks.raise(self.watched.rows.place(of), value));
             }
-            peaks.raise(self.watched.rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
+            // So do shears that can be corrected.
+            if self.system.corrections.is_empty() {
+                peaks.raise(self.watched.rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
+            }
         }
         self.raise_to_links(base, peaks, work);
     }
@@ -161,21 +164,22 @@ impl PeakFinder<'_> {
         self.find_floors(base.coordinates, (&base.rest, end), &mut room.end, &mut modal);
         self.soften(base, end.q, &mut room.end);
         room.modal = modal;
-        if self.system.floor_forces {
-            self.add_forces((base, part.inputs), 0.0, &mut room.start.resisted);
-            self.add_forces((base, part.inputs), length, &mut room.end.resisted);
+        if self.system.is_pushed {
+            self.add_pushes((base, part.inputs), 0.0, &mut room.start);
+            self.add_pushes((base, part.inputs), length, &mut room.end);
         }
     }
 
-    /// Adds the accelerations by floor forces, some seconds after the base.
-    pub(in crate::engine) fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
-        let at = base.elapsed + time;
-        self.system.add_floor_forces(
-            inputs,
-            Coordinates::Floors,
-            |force| force.after(base.segment.start, at),
-            resisted,
-        );
+    /// Adds what a master pushes with to accelerations and shears, some seconds after the base.
+    pub(in crate::engine) fn add_pushes(&self, (base, inputs): (&Base, &Inputs), time: f64, floors: &mut FloorState) {
+        let at = |push: &LinearInput| push.after(base.segment.start, base.elapsed + time);
+        self.system.add_pushes(inputs, Coordinates::Floors, at, &mut floors.resisted);
+        for side in Side::BOTH {
+            floors.shear[side as usize] -= self.system.correction_of_base(inputs, side, at);
+        }
+        for (of, line) in self.system.corrections.iter().zip(&inputs.corrections) {
+            floors.storey_shear[self.system.structure.floors.lane(of.side as usize, of.number)] -= at(line);
+        }
     }
 
     /// Works out the floors' accelerations by contact forces, m/s2: at both ends, and their least and largest values.
@@ -222,6 +226,9 @@ impl PeakFinder<'_> {
         }
         let (ends, upper) = self.bound_shear(side, h, floors);
         self.note_open((PeakOf::BaseShear(side), upper), ends, peaks, open);
+        for (bound, ends) in self.bound_storey_shears(side, h, floors) {
+            self.note_open(bound, ends, peaks, open);
+        }
     }
 
     /// Raises the peak of a quantity to its values at both ends of a step, and notes it if an upper bound is above that.
@@ -268,8 +275,9 @@ impl PeakFinder<'_> {
         let span = self.span_of(self.watched.rows.body_of(place / LANES), part.base.coordinates);
         let step = part.step;
         let at_rest = part.base.rest.watched[place] + self.soften_row(of, part.base, &mut rows);
-        let quantity =
-            Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.base.ground(), oscillates: false };
+        let [pushed, rates] = self.pushes_at(place / LANES, (part.base, 0.0), part.inputs).map(|of| of[place % LANES]);
+        let added = [at_rest + pushed, rates];
+        let quantity = Quantity { of, rows: &rows, lanes, span, added, ground: part.base.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Taylor(Solution { series, substitution, end, .. }) => {

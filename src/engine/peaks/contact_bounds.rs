@@ -49,7 +49,28 @@ impl PeakFinder<'_> {
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
         // Written so that a NaN is never below anything.
         let are_floors_below = are_moved_below && are_drifted_below && are_pushed_below;
-        !(are_floors_below && self.bound_shear(side, h, room).1 <= shear)
+        let are_storeys_below = self
+            .bound_storey_shears(side, h, room)
+            .all(|((of, upper), _)| upper <= peaks.values[self.watched.rows.place(of)]);
+        !(are_floors_below && are_storeys_below && self.bound_shear(side, h, room).1 <= shear)
+    }
+
+    /// For each storey of a building that can be corrected a bound on the magnitude of its shear over a step, and the shears at
+    /// both ends, N: corrections are linear in time.
+    pub(super) fn bound_storey_shears(
+        &self,
+        side: Side,
+        h: f64,
+        room: &FloorRoom,
+    ) -> impl Iterator<Item = ((PeakOf, f64), [f64; 2])> {
+        let of_side = self.system.corrections.iter().filter(move |of| of.side == side);
+        of_side.filter_map(move |of| {
+            let FloorRoom { start, end, largest_of_drifts, .. } = room;
+            let lane = self.system.structure.floors.lane(side as usize, of.number);
+            let ends = [start.storey_shear[lane], end.storey_shear[lane]];
+            let stray = of.stiffness? * 0.125 * h * h * largest_of_drifts[lane];
+            Some(((PeakOf::StoreyShear(side, of.number), larger(ends[0].abs(), ends[1].abs()) + stray), ends))
+        })
     }
 
     /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.

@@ -14,7 +14,7 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::room::{LEAVES, MOST_PIECES, PeakWork, Suspect};
-use crate::engine::quantities::rows::{BodyRows, PeakOf};
+use crate::engine::quantities::rows::BodyRows;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane, Motion};
 
@@ -41,9 +41,7 @@ impl PeakFinder<'_> {
                 for (i, value) in self.values_at((body, b), &base.rest.watched, Motion { q, v }).into_iter().enumerate()
                 {
                     let place = (body.first + b) * LANES + i;
-                    if !(self.system.floor_forces
-                        && matches!(self.watched.rows.at(place), Some(PeakOf::Acceleration(..))))
-                    {
+                    if !(self.system.is_pushed && self.watched.is_pushed(place)) {
                         peaks.raise(place, value);
                     }
                 }
@@ -51,17 +49,22 @@ impl PeakFinder<'_> {
         }
     }
 
-    /// Writes the accelerations by floor forces at the base, m/s2, and their rates, m/s3.
-    pub(in crate::engine) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
-        for (place, direct) in direct.iter_mut().enumerate() {
-            if let Some(PeakOf::Acceleration(side, floor)) = self.watched.rows.at(place) {
-                let force = &inputs.floor_forces[inputs.place(side, floor)];
-                let inverse =
-                    self.system.structure.floors.inverse_mass(self.system.structure.floors.lane(side as usize, floor));
-                let (start, elapsed) = (base.segment.start, base.elapsed);
-                *direct = [force.after(start, elapsed) * inverse, force.slope() * inverse];
-            }
+    /// Writes what a master's pushes add at once to all quantities at the base, and the rates of that.
+    pub(in crate::engine) fn note_pushes(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
+        for (block, direct) in direct.chunks_exact_mut(LANES).enumerate() {
+            let [values, rates] = self.pushes_at(block, (base, 0.0), inputs);
+            (0..LANES).for_each(|i| direct[i] = [values[i], rates[i]]);
         }
+    }
+
+    /// The same of a block of quantities, some seconds after the base.
+    pub(super) fn pushes_at(&self, block: usize, (base, time): (&Base, f64), inputs: &Inputs) -> [Lane; 2] {
+        let Some(pushed) = self.watched.pushed(block) else { return [[0.0; LANES]; 2] };
+        let (start, elapsed) = (base.segment.start, base.elapsed + time);
+        [
+            pushed.add_up(|number| inputs.push(number).after(start, elapsed)),
+            pushed.add_up(|number| inputs.push(number).slope()),
+        ]
     }
 
     /// Raises the peaks of block `b` to both ends of a flight, with the bounds on its modes, and notes the quantities
@@ -79,13 +82,13 @@ impl PeakFinder<'_> {
         let place = (body.first + b) * LANES;
         let direct = &work.peaks.direct[place..];
         let known = *peaks.block(body.first + b);
-        let added = self.system.floor_forces.then_some((direct, 0.0, h));
+        let added = self.system.is_pushed.then_some((direct, 0.0, h));
         let at_rest = flight.rest.as_chunks::<LANES>().0[body.first + b];
         if !flight.is_suspect && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
             return;
         }
         let mut course = course_of((block, &at_rest), (flight, known_ends), bounds, modes);
-        if self.system.floor_forces {
+        if self.system.is_pushed {
             course.add_rates(&work.peaks.direct[place..]);
             if known_ends.is_none() {
                 course.add_values(&work.peaks.direct[place..], h);

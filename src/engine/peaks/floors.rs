@@ -18,7 +18,7 @@ use crate::structure::{LANES, Motion, Side};
 const FURTHEST: f64 = 0.5;
 
 impl PeakFinder<'_> {
-    /// Works out the floors of a motion relative to a position of `rest`, without floor forces; `modal` is a scratch vector.
+    /// Works out the floors of a motion relative to a position of `rest`, without what a master pushes with; `modal` is a scratch vector.
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
@@ -55,6 +55,16 @@ impl PeakFinder<'_> {
             structure.floors.set_drifts(side, &out.u, &mut out.drift);
             structure.floors.set_drifts(side, &out.v, &mut out.drifting);
         }
+        for of in &self.system.corrections {
+            let Some(stiffness) = of.stiffness else { continue };
+            let at_rest = |quantity: PeakOf| match self.system.elements.is_empty() {
+                true => 0.0,
+                false => rest.watched[self.watched.rows.place(quantity)],
+            };
+            let lane = structure.floors.lane(of.side as usize, of.number);
+            let drift = out.drift[lane] - at_rest(PeakOf::Drift(of.side, of.number));
+            out.storey_shear[lane] = stiffness * drift + at_rest(PeakOf::StoreyShear(of.side, of.number));
+        }
     }
 
     /// Takes from the accelerations and shears of a motion what storeys that yield do not resist with, where their drifts
@@ -63,8 +73,11 @@ impl PeakFinder<'_> {
         for (of, _) in self.system.elements.iter().zip(&base.elements).filter(|(_, element)| element.yields.is_some()) {
             let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
             of.row.push(Coordinates::Floors, force, &mut out.resisted);
-            if let ElementOf::Storey(side, 0) = of.place {
-                out.shear[side as usize] -= force;
+            if let ElementOf::Storey(side, storey) = of.place {
+                out.storey_shear[self.system.structure.floors.lane(side as usize, storey)] -= force;
+                if storey == 0 {
+                    out.shear[side as usize] -= force;
+                }
             }
         }
     }

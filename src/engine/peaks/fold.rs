@@ -109,7 +109,7 @@ impl PeakFinder<'_> {
                 );
                 for i in 0..LANES {
                     end[i] += at_rest[i];
-                    if self.system.floor_forces {
+                    if self.system.is_pushed {
                         end[i] += push[i] + rate[i] * time;
                     }
                     known[i] = larger(known[i], end[i].abs());
@@ -120,15 +120,13 @@ impl PeakFinder<'_> {
         survivors.retain(|survivor| !is_below(&survivor.upper, &all[survivor.block]));
     }
 
-    /// What the forces on floors add to a block's quantities at the start of a flight, and its rate.
+    /// What a master's pushes add to a block's quantities at the start of a flight, and its rate.
     fn pushes(&self, flights: &Flights, survivor: &Survivor) -> [Lane; 2] {
         let Some(acting) = flights.forces.and_then(|forces| forces.acting(survivor.flight)) else {
             return [[0.0; LANES]; 2];
         };
-        let body = self.watched.rows.body_of(survivor.block);
-        let floors =
-            self.watched.of_spans.bodies[body].blocks[survivor.block - self.watched.rows.bodies[body].first].pushed;
-        floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
+        let Some(pushed) = self.watched.pushed(survivor.block) else { return [[0.0; LANES]; 2] };
+        [acting.0, acting.1].map(|numbers| pushed.add_up(|i| numbers[i]))
     }
 
     /// Searches one flight for turning points of some blocks of quantities above their peaks.
@@ -149,14 +147,14 @@ impl PeakFinder<'_> {
                     own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
                 self.system.load_in_flight(ground, load, slope);
                 if let Some((forces, rates)) = forces {
-                    self.system.add_forces(forces.iter().copied(), Coordinates::Modes, load);
-                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, slope);
+                    self.system.add_push_numbers(forces.iter().copied(), Coordinates::Modes, load);
+                    self.system.add_push_numbers(rates.iter().copied(), Coordinates::Modes, slope);
                 }
                 LinearLoad { load, slope }
             },
             |whole| whole.loads,
         );
-        if self.system.floor_forces {
+        if self.system.is_pushed {
             for survivor in survivors {
                 let [push, rate] = self.pushes(flights, survivor);
                 for (i, direct) in work.peaks.direct[survivor.block * LANES..][..LANES].iter_mut().enumerate() {

@@ -1,5 +1,5 @@
-//! Peaks, the largest magnitudes so far in continuous time: of displacements, drifts, absolute accelerations and base
-//! shears.
+//! Peaks, the largest magnitudes so far in continuous time: of displacements, drifts, absolute accelerations, base shears, and
+//! of storey shears that can be corrected.
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
@@ -90,10 +90,10 @@ impl PeakFinder<'_> {
         }
         let motion = base.motion();
         log.push(motion, Load { ground: base.ground(), length: planned.length });
-        if self.system.floor_forces {
-            let at = |force: &LinearInput| (force.after(base.segment.start, base.elapsed), force.slope());
+        if self.system.is_pushed {
+            let at = |push: &LinearInput| (push.after(base.segment.start, base.elapsed), push.slope());
             let loads = LinearLoad { load: &planned.load, slope: &planned.slope };
-            log.push_forces(inputs.floor_forces.iter().map(at), |energies| {
+            log.push_forces(inputs.pushes().map(at), |energies| {
                 set_energies(&self.system.structure, motion, loads, energies);
             });
         }
@@ -134,8 +134,8 @@ impl PeakFinder<'_> {
     ) {
         self.system.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
         let (load, slope) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
-        if self.system.floor_forces {
-            self.note_floor_forces(base, inputs, &mut work.peaks.direct);
+        if self.system.is_pushed {
+            self.note_pushes(base, inputs, &mut work.peaks.direct);
         }
         let (ground, loads) = (base.ground(), LinearLoad { load: &load, slope: &slope });
         let (start, is_suspect) = (base.motion(), false);

@@ -19,8 +19,9 @@ pub struct Quantity<'a> {
     pub lanes: Option<(usize, Option<usize>)>,
     /// The first of the lanes outside of which both rows are 0, and the one after the last.
     pub span: (usize, usize),
-    /// What is added to the product of its rows and the motion: its value at rest.
-    pub at_rest: f64,
+    /// What is added to the product of its rows and the motion, and its rate: its value at rest and what a master's pushes add
+    /// at once. Accelerations have both in their motion.
+    pub added: [f64; 2],
     /// From the start of the series on.
     pub ground: LinearGround,
     /// Whether its rows are over oscillators: then the second one counts for every quantity.
@@ -68,13 +69,16 @@ impl Quantity<'_> {
             (0..order).for_each(|n| terms[n] += (n + 1) as f64 * of_rates[n + 1] * per_unit);
             order -= 1;
         }
-        if let PeakOf::Acceleration(..) = self.of {
-            (2..=order).for_each(|n| terms[n - 2] = (n * (n - 1)) as f64 * (terms[n] * per_unit * per_unit));
-            terms[0] += self.ground.acceleration;
-            terms[1] += self.ground.slope * series.scale;
-            order -= 2;
-        }
-        terms[0] += self.at_rest;
+        let [value, rate] = match self.of {
+            PeakOf::Acceleration(..) => {
+                (2..=order).for_each(|n| terms[n - 2] = (n * (n - 1)) as f64 * (terms[n] * per_unit * per_unit));
+                order -= 2;
+                [self.ground.acceleration, self.ground.slope]
+            }
+            _ => self.added,
+        };
+        terms[0] += value;
+        terms[1] += rate * series.scale;
         if series.time_map.is_curved()
             && let Some(substitution) = substitution
         {
@@ -144,6 +148,13 @@ impl PeakFinder<'_> {
             }
             PeakOf::BaseShear(side) => {
                 self.watched.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
+                None
+            }
+            PeakOf::StoreyShear(side, storey) => {
+                let (lane, stiffness) =
+                    (floors.lane(side as usize, storey), self.system.corrected_stiffness((side, storey)));
+                row[lane] = stiffness;
+                storey.checked_sub(1).iter().for_each(|_| row[lane - 1] = -stiffness);
                 None
             }
             // Linked buildings move in modes.

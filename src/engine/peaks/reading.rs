@@ -95,8 +95,8 @@ impl PeakFinder<'_> {
         step.taylor.series.evaluate(&powers, q, v);
         self.find_floors(base.coordinates, (&base.rest, Motion { q, v }), floors, modal);
         self.soften(base, q, floors);
-        if self.system.floor_forces {
-            self.add_forces((base, inputs), time, &mut floors.resisted);
+        if self.system.is_pushed {
+            self.add_pushes((base, inputs), time, floors);
         }
         let lane = self.system.structure.floors.lane(side as usize, floor);
         let closed = self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact());
@@ -120,8 +120,9 @@ impl PeakFinder<'_> {
                 (quantity.of_motion(acceleration) + ground.acceleration, quantity.of_motion(jerk) + ground.slope)
             }
             _ => {
-                let value = quantity.at_rest + (quantity.of_motion(q) + quantity.of_rate(v));
-                (value, quantity.of_motion(v) + quantity.of_rate(acceleration))
+                let [added, rate] = quantity.added;
+                let value = (added + rate * time) + (quantity.of_motion(q) + quantity.of_rate(v));
+                (value, rate + (quantity.of_motion(v) + quantity.of_rate(acceleration)))
             }
         };
         work.peaks.readings.put(place, room);
@@ -151,8 +152,8 @@ impl PeakFinder<'_> {
             (acceleration[lane], jerk[lane]) = (-share * ground.acceleration, -share * ground.slope);
         }
         let at = base.elapsed + time;
-        self.system.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
-        self.system.add_floor_forces(inputs, coordinates, LinearInput::slope, jerk);
+        self.system.add_pushes(inputs, coordinates, |push| push.after(base.segment.start, at), acceleration);
+        self.system.add_pushes(inputs, coordinates, LinearInput::slope, jerk);
         self.system.resist(coordinates, q, v, 1.0, acceleration);
         for (p, (contact, (d, rate))) in closed() {
             self.system.push_apart_by(p, coordinates, contact.branch().value(*d, *rate), acceleration);

@@ -25,6 +25,12 @@ impl PeakFinder<'_> {
                 watched[place(PeakOf::Drift(side, floor))] = floors[lane] - below;
             }
         }
+        for of in self.system.corrections.iter() {
+            let (Some(stiffness), storey) = (of.stiffness, (of.side, of.number)) else { continue };
+            let slack = system.number_of_storey(storey).map_or(0.0, |i| system.elements[i].lost * elements[i].plastic);
+            let drift = watched[place(PeakOf::Drift(of.side, of.number))];
+            watched[place(PeakOf::StoreyShear(of.side, of.number))] = stiffness * drift - slack;
+        }
     }
 
     /// The values of block `b` of a body in a motion, with those at rest.
@@ -38,11 +44,12 @@ impl PeakFinder<'_> {
         each(|i| values[i] + at_rest[i])
     }
 
-    /// Takes from the row of a base shear what the lowest storey does not resist with if it yields in a step, or from that of
+    /// Takes from the row of a base shear, or a storey shear, what the storey does not resist with if it yields in a step, or from that of
     /// a link's force what the link does not; returns the part of the force that this row leaves out.
     pub(in crate::engine) fn soften_row(&self, of: PeakOf, base: &Base, rows: &mut [Vec<f64>; 2]) -> f64 {
         let number = match of {
             PeakOf::BaseShear(side) => self.system.number_of_storey((side, 0)),
+            PeakOf::StoreyShear(side, storey) => self.system.number_of_storey((side, storey)),
             PeakOf::LinkForce(l) => self.system.number_of_link(l),
             _ => None,
         };

@@ -125,8 +125,7 @@ pub struct PeakRoom {
     pub creeps: Vec<f64>,
     /// A row over the motion and one over its rate.
     pub rows: [Vec<f64>; 2],
-    /// For each watched quantity, the part of an acceleration by floor forces at the start of a flight, m/s2, and its
-    /// rate, m/s3.
+    /// For each watched quantity what a master's pushes add at once at the start of a flight, and the rate of that.
     pub direct: Vec<[f64; 2]>,
     pub floors: FloorRoom,
     /// The floors within a step that is a power series.
@@ -209,10 +208,12 @@ pub struct FloorState {
     pub drift: Vec<f64>,
     /// Their rates, m/s.
     pub drifting: Vec<f64>,
-    /// Accelerations by stiffness and damping of the buildings and by floor forces, m/s2.
+    /// Accelerations by stiffness and damping of the buildings and by what a master pushes with, m/s2.
     pub resisted: Vec<f64>,
     /// Base shears of both buildings, N.
     pub shear: [f64; 2],
+    /// Shears of the storeys below the floors, where these can be corrected, N.
+    pub storey_shear: Vec<f64>,
 }
 
 impl FloorState {
@@ -225,6 +226,7 @@ impl FloorState {
             drifting: vector(),
             resisted: vector(),
             shear: [0.0; 2],
+            storey_shear: vector(),
         }
     }
 }

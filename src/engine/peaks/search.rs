@@ -242,7 +242,7 @@ impl PeakFinder<'_> {
             let [q, v] = [q, v].map(|place| &work.peaks.pieces[place][body.modes.clone()]);
             let values = values_of(block, q, v);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-                let [direct, rate] = match self.system.floor_forces {
+                let [direct, rate] = match self.system.is_pushed {
                     true => work.peaks.direct[suspect.place],
                     false => [0.0; 2],
                 };
@@ -279,7 +279,7 @@ impl PeakFinder<'_> {
             let (place, (body, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
             let mut known = [f64::INFINITY; LANES];
             suspects.iter().for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
-            let direct = self.system.floor_forces.then_some((&peaks.direct[place..], piece.from, length));
+            let direct = self.system.is_pushed.then_some((&peaks.direct[place..], piece.from, length));
             let at_rest = &flight.rest.as_chunks::<LANES>().0[place / LANES];
             let are_below = stay_below(&known, (block, at_rest), (&peaks.piece, &body.modes), direct);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
@@ -308,8 +308,9 @@ impl PeakFinder<'_> {
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
             let of = suspect.of;
             self.set_flight_rows(of, &mut rows);
-            let at_rest = flight.rest[suspect.place];
-            let quantity = Quantity { of, rows: &rows, lanes: None, span, at_rest, ground, oscillates };
+            let [direct, rate] = if self.system.is_pushed { work.peaks.direct[suspect.place] } else { [0.0; 2] };
+            let added = [flight.rest[suspect.place] + (direct + rate * from), rate];
+            let quantity = Quantity { of, rows: &rows, lanes: None, span, added, ground, oscillates };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
             suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }

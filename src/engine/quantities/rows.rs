@@ -1,6 +1,6 @@
 //! The quantities whose peaks are kept, as linear functions of the motion, in blocks of four.
 //!
-//! Without contact and floor forces each quantity y is a row A over the displacements q and a row B over the velocities
+//! Without contact and what a master pushes with each quantity y is a row A over the displacements q and a row B over the velocities
 //! v of its body's modes, y = A q + B v:
 //!
 //! ```text
@@ -8,10 +8,12 @@
 //! drift                A = that less the shape of the floor below B = 0             (on soil also less h times the rotation)
 //! acceleration         A = -w^2 shape                             B = -shape C     (absolute)
 //! base shear           A = w^2 participation                      B = participation C
+//! storey shear         A = stiffness times that of the drift      B = 0             (where it can be corrected)
 //! displacement of link A = shapes of its floors, 1 and -1         B = 0
 //! force of link        A = stiffness times that                   B = dashpot times that
 //! ```
 
+use crate::engine::system::System;
 use crate::numerics::polynomial::cut;
 use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
@@ -29,6 +31,8 @@ pub enum PeakOf {
     Acceleration(Side, usize),
     /// Force of the building on the ground, N.
     BaseShear(Side),
+    /// Shear of a storey of a shear building that can be corrected, N, without damping.
+    StoreyShear(Side, usize),
     /// By how much the ends of a link have come nearer, m. Links of a scene come first, then the soil under foundations.
     LinkDisplacement(usize),
     /// Force with which a link pushes its ends apart, N.
@@ -54,19 +58,20 @@ pub(crate) struct BodyRows {
     /// Number of its first block among the blocks of all bodies.
     pub first: usize,
     pub blocks: Vec<RowBlock>,
-    /// Displacements and drifts, and displacements of links.
+    /// Displacements and drifts, displacements of links, and storey shears.
     moving: Vec<PeakOf>,
     /// Accelerations and base shears, and forces of links.
     pulling: Vec<PeakOf>,
 }
 
-/// Indices of the first displacement, drift and acceleration of a building, and of its base shear.
+/// Indices of the first displacement, drift, acceleration and storey shear of a building, and of its base shear.
 #[derive(Clone, Copy, Debug, Default)]
 struct FirstPlaces {
     displacement: usize,
     drift: usize,
     acceleration: usize,
     shear: usize,
+    storey_shear: usize,
 }
 
 /// [`LANES`] quantities of one body.
@@ -80,11 +85,12 @@ pub(crate) struct RowBlock {
 
 impl PeakRows {
     /// The watched quantities of all bodies; none unless `wanted`.
-    pub(crate) fn of(structure: &Structure, wanted: bool) -> PeakRows {
+    pub(crate) fn of(system: &System, wanted: bool) -> PeakRows {
+        let structure = &system.structure;
         let links = vec![[0; 2]; structure.links.len()];
         let mut rows = PeakRows { bodies: Vec::new(), buildings: [FirstPlaces::default(); 2], links };
         for b in (0..structure.bodies.len()).filter(|_| wanted) {
-            let of_body = BodyRows::of(structure, b, rows.blocks());
+            let of_body = BodyRows::of(system, b, rows.blocks());
             for (place, of) in of_body.all() {
                 match of {
                     PeakOf::Displacement(side, 0) => rows.buildings[side as usize].displacement = place,
@@ -93,7 +99,11 @@ impl PeakRows {
                     PeakOf::BaseShear(side) => rows.buildings[side as usize].shear = place,
                     PeakOf::LinkDisplacement(l) => rows.links[l][0] = place,
                     PeakOf::LinkForce(l) => rows.links[l][1] = place,
-                    PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => {}
+                    PeakOf::StoreyShear(side, 0) => rows.buildings[side as usize].storey_shear = place,
+                    PeakOf::Displacement(..)
+                    | PeakOf::Drift(..)
+                    | PeakOf::Acceleration(..)
+                    | PeakOf::StoreyShear(..) => {}
                 }
             }
             rows.bodies.push(of_body);
@@ -139,6 +149,7 @@ impl PeakRows {
             PeakOf::Drift(side, storey) => self.buildings[side as usize].drift + storey,
             PeakOf::Acceleration(side, floor) => self.buildings[side as usize].acceleration + floor,
             PeakOf::BaseShear(side) => self.buildings[side as usize].shear,
+            PeakOf::StoreyShear(side, storey) => self.buildings[side as usize].storey_shear + storey,
             PeakOf::LinkDisplacement(l) => self.links[l][0],
             PeakOf::LinkForce(l) => self.links[l][1],
         }
@@ -151,19 +162,22 @@ impl PeakRows {
 }
 
 impl BodyRows {
-    fn of(structure: &Structure, b: usize, first: usize) -> BodyRows {
+    fn of(system: &System, b: usize, first: usize) -> BodyRows {
+        let structure = &system.structure;
         let body = &structure.bodies[b];
         let links = || (0..structure.links.len()).filter(|l| structure.links[*l].body == b);
         let floors: Vec<(Side, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
         let of_floors = |of: fn(Side, usize) -> PeakOf| floors.iter().map(move |&(side, floor)| of(side, floor));
         let moving = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift));
-        let moving: Vec<PeakOf> = moving.chain(links().map(PeakOf::LinkDisplacement)).collect();
+        let corrected = system.corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.side));
+        let corrected = corrected.map(|of| PeakOf::StoreyShear(of.side, of.number));
+        let moving: Vec<PeakOf> = moving.chain(links().map(PeakOf::LinkDisplacement)).chain(corrected).collect();
         let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.side));
         let pulling = of_floors(PeakOf::Acceleration).chain(shears);
         let pulling: Vec<PeakOf> = pulling.chain(links().map(PeakOf::LinkForce)).collect();
         let count = body.modes.omega.len();
         let block = |quantities: &[PeakOf]| {
-            RowBlock::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(structure, body, *of, m)))
+            RowBlock::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(system, body, *of, m)))
         };
         let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
         BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
@@ -206,7 +220,8 @@ impl BodyRows {
 }
 
 /// The entries of rows A and B of a quantity for one mode of its body.
-fn row_of(structure: &Structure, body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
+fn row_of(system: &System, body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
+    let structure = &system.structure;
     let (modes, w2) = (&body.modes, body.modes.omega[m] * body.modes.omega[m]);
     let damped = |of: &dyn Fn(usize) -> f64| match &modes.damping {
         ModalDamping::Diagonal(c) => c[m] * of(m),
@@ -223,6 +238,9 @@ fn row_of(structure: &Structure, body: &Body, of: PeakOf, m: usize) -> [f64; 2] 
             None => [w2 * modes.participation[m], damped(&|k| modes.participation[k])],
             Some([on_q, on_v]) => [on_q[body.range.start + m], on_v[body.range.start + m]],
         },
+        PeakOf::StoreyShear(side, storey) => {
+            [system.corrected_stiffness((side, storey)) * body.drift(side, storey, m), 0.0]
+        }
         PeakOf::LinkDisplacement(l) => [structure.links[l].row[body.range.start + m], 0.0],
         PeakOf::LinkForce(l) => {
             let link = &structure.links[l];

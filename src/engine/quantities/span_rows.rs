@@ -4,10 +4,11 @@
 //! A quantity is a row A over q, or, where it pulls, as accelerations and base shears do, one over w^2 q + c q'. Where
 //! oscillators move in flights each quantity is a row A over q and one B over q'.
 //!
-//! Where forces may act on floors, the absolute acceleration of a floor is the sum over all modes and its own force by its
-//! mass.
+//! Where a master pushes on the buildings, what that adds at once is beside the rows (`pushed.rs`).
 
-use crate::engine::quantities::rows::{BodyRows, PeakOf, PeakRows, RowBlock};
+use crate::engine::quantities::pushed::Pushed;
+use crate::engine::quantities::rows::{BodyRows, PeakRows, RowBlock};
+use crate::engine::system::System;
 use crate::structure::{LANES, Lane, Structure};
 use std::ops::Range;
 
@@ -48,31 +49,14 @@ pub(crate) struct SpanBlock {
     /// Over the body's fours, with 0 for other modes than its own, a row over q, and one over w^2 q + c q', or over q' of
     /// oscillators; empty where it is 0.
     pub rows: [Vec<Lane>; 2],
-    /// The floors whose accelerations these are, where forces may act on them.
-    pub pushed: Option<PushedFloors>,
-}
-
-/// The floors of a block of accelerations.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PushedFloors {
-    /// Number of the first one among the floors of both buildings.
-    first: usize,
-    /// 1 / mass, 1/kg; 0 where the quantity is no acceleration.
-    inverse_mass: Lane,
-}
-
-impl PushedFloors {
-    /// What the forces on all floors, N, add to the accelerations, m/s2.
-    #[inline(always)]
-    pub(crate) fn accelerations(&self, forces: &[f64]) -> Lane {
-        let forces = &forces[self.first..self.first + LANES];
-        std::array::from_fn(|i| forces[i] * self.inverse_mass[i])
-    }
+    /// What a master's pushes add at once.
+    pub pushed: Option<Pushed>,
 }
 
 impl SpanRows {
-    /// The quantities of `rows`; forces may act on floors.
-    pub(crate) fn of(structure: &Structure, rows: &PeakRows, has_forces: bool) -> SpanRows {
+    /// The quantities of `rows`.
+    pub(crate) fn of(system: &System, rows: &PeakRows) -> SpanRows {
+        let structure = &system.structure;
         let mut bodies: Vec<SpanBody> =
             rows.bodies.iter().enumerate().map(|(b, body)| SpanBody::of((structure, b), body)).collect();
         let mut numbers: Vec<usize> = bodies.iter().flat_map(|body| body.fours.clone()).collect();
@@ -81,26 +65,13 @@ impl SpanRows {
             let first = numbers.partition_point(|number| *number < fours.start);
             *fours = first..first + fours.len();
         }
-        for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| has_forces) {
+        for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| system.is_pushed) {
             for (block, number) in body.blocks.iter_mut().zip(of.first..) {
-                block.pushed = pushed_floors(structure, rows, number);
+                block.pushed = Pushed::of(system, rows, number);
             }
         }
         SpanRows { fours: numbers.into_iter().map(|number| FourModes::of(structure, number)).collect(), bodies }
     }
-}
-
-/// The floors of a block, if it is one of accelerations.
-fn pushed_floors(structure: &Structure, rows: &PeakRows, block: usize) -> Option<PushedFloors> {
-    let place = block * LANES;
-    let Some(PeakOf::Acceleration(side, first)) = rows.at(place) else { return None };
-    let inverse_mass = std::array::from_fn(|i| match rows.at(place + i) {
-        Some(PeakOf::Acceleration(side, floor)) => {
-            structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
-        }
-        _ => 0.0,
-    });
-    Some(PushedFloors { first: structure.number(side, first), inverse_mass })
 }
 
 impl SpanBody {

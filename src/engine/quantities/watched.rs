@@ -1,10 +1,12 @@
 //! What is watched for its peak in a scene: as rows over the modes, over what moves in flights, block by block over spans of
 //! these, and what bounds need to know of the storeys.
 
+use crate::engine::quantities::pushed::Pushed;
 use crate::engine::quantities::resistance::FloorResistance;
 use crate::engine::quantities::rows::PeakRows;
 use crate::engine::quantities::span_rows::SpanRows;
-use crate::structure::Structure;
+use crate::engine::system::System;
+use crate::structure::LANES;
 
 /// What is watched for its peak.
 #[derive(Debug)]
@@ -18,17 +20,29 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// Of a structure, if a scene keeps `peaks`; with forces on floors or without.
-    pub(crate) fn of(structure: &Structure, peaks: bool, has_forces: bool) -> Watched {
-        let rows = PeakRows::of(structure, peaks);
+    /// Of a system, if a scene keeps `peaks`.
+    pub(crate) fn of(system: &System, peaks: bool) -> Watched {
+        let structure = &system.structure;
+        let rows = PeakRows::of(system, peaks);
         let oscillating = rows.in_flight(structure);
-        let of_spans = SpanRows::of(structure, oscillating.as_ref().unwrap_or(&rows), has_forces);
+        let of_spans = SpanRows::of(system, oscillating.as_ref().unwrap_or(&rows));
         Watched { rows, oscillating, of_spans, resistance: FloorResistance::of(structure) }
     }
 
     /// The rows over what moves in flights.
     pub(crate) fn in_flight(&self) -> &PeakRows {
         self.oscillating.as_ref().unwrap_or(&self.rows)
+    }
+
+    /// What a master's pushes add at once to a block of quantities.
+    pub(crate) fn pushed(&self, block: usize) -> Option<&Pushed> {
+        let body = self.rows.body_of(block);
+        self.of_spans.bodies[body].blocks[block - self.rows.bodies[body].first].pushed.as_ref()
+    }
+
+    /// Whether they add anything to a quantity.
+    pub(crate) fn is_pushed(&self, place: usize) -> bool {
+        self.pushed(place / LANES).is_some_and(|pushed| pushed.is_of(place % LANES))
     }
 
     /// Whether oscillators move in flights.

@@ -14,8 +14,9 @@ pub struct Buffers {
     pub load: Vec<f64>,
     /// Rate of change of the load over the step, per second.
     pub slope: Vec<f64>,
-    /// Rates of the external floor forces, N/s (on modes, per kg^1/2); empty where all are held constant.
-    pub force_slope: Vec<f64>,
+    /// Rates of the external floor forces, and of the corrections, N/s (on modes, per kg^1/2); empty where all are held
+    /// constant.
+    pub push_slopes: [Vec<f64>; 2],
     /// Displacements or velocities while they are converted to other coordinates. In `rigid`: accelerations.
     pub q: Vec<f64>,
     /// Velocities. In the energy account: damping forces per unit of mass.
@@ -56,7 +57,7 @@ impl Buffers {
         Buffers {
             load: vector(),
             slope: vector(),
-            force_slope: Vec::with_capacity(lanes),
+            push_slopes: [(); 2].map(|()| Vec::with_capacity(lanes)),
             q: vector(),
             v: vector(),
             scratch: Scratch::new(lanes),

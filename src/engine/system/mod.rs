@@ -1,6 +1,7 @@
 //! The mechanical system: buildings, pairs and ground. All kinds of steps use it; it knows none of them.
 
 pub mod buffers;
+pub mod corrections;
 pub mod error_norm;
 pub mod limits;
 pub mod links;
@@ -19,6 +20,7 @@ use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
+use crate::engine::system::corrections::Correction;
 use crate::engine::system::tolerance::Tolerance;
 use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
@@ -44,6 +46,10 @@ pub struct System {
     pub ground: Option<GroundMotion>,
     /// Whether a master may set forces on the floors.
     pub floor_forces: bool,
+    /// What a master may correct.
+    pub corrections: Vec<Correction>,
+    /// Whether a master may do any of both.
+    pub is_pushed: bool,
     pub tolerance: Tolerance,
     /// The coordinates in contact, but for rigid pairs, which need modal ones.
     pub contact_coordinates: Coordinates,
@@ -64,7 +70,8 @@ impl System {
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
         let mut structure = Structure::of(scene).map_err(|(side, _)| not_positive_definite(side))?;
         // Rigid pairs that have just parted are followed in modes; a force on a floor would load both coordinates of an oscillator.
-        let needs_modes = scene.floor_forces || scene.contacts.iter().any(|contact| contact.law.is_rigid());
+        let is_pushed = scene.floor_forces || scene.restoring_corrections;
+        let needs_modes = is_pushed || scene.contacts.iter().any(|contact| contact.law.is_rigid());
         if scene.floor_forces {
             structure.prepare_floor_forces();
         }
@@ -100,6 +107,8 @@ impl System {
             elements,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
+            corrections: Correction::all(scene, &structure),
+            is_pushed,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
             contact_coordinates: contact_coordinates(&structure),
             least_approach: scene.solver.min_approach_velocity,
@@ -160,7 +169,7 @@ impl System {
 
     /// Whether a master's inputs act on the system, so that steps end at communication points.
     pub fn is_driven(&self) -> bool {
-        self.ground.is_none() || self.floor_forces
+        self.ground.is_none() || self.is_pushed
     }
 
     /// The record and the number of the base's segment, if pairs can be cleared for segments ahead: if only the record
@@ -178,9 +187,9 @@ impl System {
             true => self.load_in_flight(ground, load, slope),
             false => set_load(self.participation(*coordinates), ground, load, slope),
         }
-        if self.floor_forces {
-            self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
-            self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
+        if self.is_pushed {
+            self.add_pushes(inputs, *coordinates, |push| push.after(segment.start, *elapsed), load);
+            self.add_pushes(inputs, *coordinates, LinearInput::slope, slope);
         }
     }
 
@@ -194,32 +203,6 @@ impl System {
         match coordinates {
             Coordinates::Modes => &self.structure.participation,
             Coordinates::Floors => &self.ones,
-        }
-    }
-
-    /// Adds the external forces on the floors, or their rates, to a load per unit of mass.
-    pub fn add_floor_forces(
-        &self,
-        inputs: &Inputs,
-        coordinates: Coordinates,
-        part: impl Fn(&LinearInput) -> f64,
-        load: &mut [f64],
-    ) {
-        self.add_forces(inputs.floor_forces.iter().map(part), coordinates, load);
-    }
-
-    /// Adds forces on all floors, N, or on none.
-    pub fn add_forces(&self, mut forces: impl Iterator<Item = f64>, coordinates: Coordinates, load: &mut [f64]) {
-        for side in Side::BOTH {
-            let of_side = forces.by_ref().take(self.structure.floors(side)).enumerate();
-            let acting = of_side.filter(|(_, force)| *force != 0.0);
-            match coordinates {
-                Coordinates::Modes => self.structure.add_floor_forces(side, acting, load),
-                Coordinates::Floors => acting.for_each(|(floor, force)| {
-                    let lane = self.structure.floors.lane(side as usize, floor);
-                    load[lane] += force * self.structure.floors.inverse_mass(lane);
-                }),
-            }
         }
     }
 

@@ -97,8 +97,8 @@ impl Case {
         log.push(motion, load);
         let [mut loads, mut rates] = [(); 2].map(|()| vec![0.0; model.system.structure.lanes]);
         system.load_in_flight(load.ground, &mut loads, &mut rates);
-        system.add_forces(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
-        system.add_forces(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
+        system.add_push_numbers(forces.iter().map(|force| force.0), Coordinates::Modes, &mut loads);
+        system.add_push_numbers(forces.iter().map(|force| force.1), Coordinates::Modes, &mut rates);
         let loads = LinearLoad { load: &loads, slope: &rates };
         log.push_forces(forces.iter().copied(), |out| set_energies(&system.structure, motion, loads, out));
     }
@@ -110,8 +110,8 @@ impl Case {
         let [mut load, mut rate, mut q, mut v] = [(); 4].map(|()| vec![0.0; lanes]);
         system.load_in_flight(flights.load(k).ground, &mut load, &mut rate);
         if let Some((forces, rates)) = flights.forces.and_then(|forces| forces.acting(k)) {
-            system.add_forces(forces.iter().copied(), Coordinates::Modes, &mut load);
-            system.add_forces(rates.iter().copied(), Coordinates::Modes, &mut rate);
+            system.add_push_numbers(forces.iter().copied(), Coordinates::Modes, &mut load);
+            system.add_push_numbers(rates.iter().copied(), Coordinates::Modes, &mut rate);
         }
         Interval::new(system.structure.in_flight(), time).fly(
             flights.motion(k),
