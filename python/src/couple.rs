@@ -1,7 +1,7 @@
 //! A run with buildings of other programs, which Python reaches.
 
 use crate::scene::{Scene, refusal};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pounding::scene::Side;
 use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as run, stiffness_of};
 use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};

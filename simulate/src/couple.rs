@@ -304,7 +304,7 @@ fn shears(forces: &[f64]) -> Vec<f64> {
 fn of_stiffness<'a>(stiffness: &'a Stiffness, moved: &'a [f64]) -> Box<dyn Iterator<Item = f64> + 'a> {
     match stiffness {
         Stiffness::Shear(storeys) => Box::new(storeys.iter().zip(moved).map(|(stiffness, drift)| stiffness * drift)),
-        Stiffness::Matrix(rows) => Box::new(rows.iter().map(|row| row.iter().zip(moved).map(|(k, u)| k * u).sum())),
+        Stiffness::Matrix(rows) => Box::new(rows.iter().map(move |row| row.iter().zip(moved).map(|(k, u)| k * u).sum())),
         _ => Box::new(std::iter::empty()),
     }
 }
