@@ -4,7 +4,7 @@ use crate::scene::{Scene, refusal};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pounding::scene::Side;
 use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as run, stiffness_of};
-use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyException, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// The scene with buildings of other programs: for each, whether it is the right one and its stiffness, N/m, as rows of a matrix, or
@@ -59,16 +59,21 @@ fn side(is_right: bool) -> Side {
 fn forces(answer: &Bound<'_, PyAny>, floors: usize) -> PyResult<Vec<f64>> {
     let forces = match answer.extract::<PyReadonlyArray1<'_, f64>>() {
         Ok(array) => array.as_array().to_vec(),
-        Err(_) => answer.extract::<Vec<f64>>()?,
+        Err(_) => answer.extract::<Vec<f64>>().map_err(|_| {
+            let found = answer.get_type();
+            PyTypeError::new_err(format!("{found}: expected {floors} numbers, the forces on the floors in N"))
+        })?,
     };
     match forces.iter().position(|force| !force.is_finite()) {
         _ if forces.len() != floors => {
             let found = format!("{} numbers: expected {floors}, the forces on the floors in N", forces.len());
             Err(PyValueError::new_err(found))
         }
-        Some(floor) => {
-            Err(PyValueError::new_err(format!("{} on floor {}: expected a finite force in N", forces[floor], floor + 1)))
-        }
+        Some(floor) => Err(PyValueError::new_err(format!(
+            "{} on floor {}: expected a finite force in N",
+            forces[floor],
+            floor + 1
+        ))),
         None => Ok(forces),
     }
 }

@@ -66,8 +66,16 @@ pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -
         let run = Run::under(model, Arc::clone(&scene.corrections));
         let solution = solve_run(run, model, instants::regular(step, stop), Some(look));
         let solution = solution.map_err(|error| error.to_string())?;
-        Ok(problem.heading() + &text(&follower.outcome(solution.time), Some(problem), stop_reason))
+        Ok(problem.heading() + &coupled(scene) + &text(&follower.outcome(solution.time), Some(problem), stop_reason))
     })
+}
+
+/// Which buildings another program has had, if any.
+fn coupled(Scenario { corrections, .. }: &Scenario) -> String {
+    let line = |side| {
+        format!("  {side:<12} its restoring forces are another program's; frequencies are of its first stiffness\n")
+    };
+    corrections.sides().map(line).collect()
 }
 
 /// What comes of work with the model of a scene, beside Python.

@@ -117,10 +117,8 @@ def test_shears_are_those_of_the_model_and_the_energy_account_closes():
     # What the model has taken and not given back: its work by the trapezoidal rule.
     drift = np.diff(np.array(model.asked), axis=1, prepend=0.0)
     taken = np.sum(np.diff(drift, axis=0) * (shears[1:] + shears[:-1]) / 2)
-    of_k0 = np.sum(STIFFNESS * drift[-1] ** 2) / 2
-    assert run["energy.strain"][-1] + run["energy.correction"][-1] == pytest.approx(taken, rel=1e-3) or (
-        run["energy.strain"][-1] - run["energy.correction"][-1] == pytest.approx(taken, rel=1e-3)
-    ), (taken, of_k0, run["energy.strain"][-1], run["energy.correction"][-1])
+    assert run["energy.strain"][-1] + run["energy.correction"][-1] == pytest.approx(taken, rel=1e-3)
+    assert run["energy.correction"][-1] > 0.1 * run["energy.input"][-1]
 
 
 def test_a_model_is_moved_once_a_step_to_where_the_floors_are():
@@ -242,8 +240,8 @@ def test_ctrl_c_ends_it():
         ([1.0, 2.0, 3.0, 4.0], "4 numbers: expected 3"),
         ([1.0, float("nan"), 3.0], "NaN on floor 2: expected a finite force in N"),
         (np.array([np.inf, 0.0, 0.0]), "inf on floor 1: expected a finite force in N"),
-        (None, "NoneType"),
-        ("abc", "str"),
+        (None, "<class 'NoneType'>: expected 3 numbers, the forces on the floors in N"),
+        ("abc", "expected 3 numbers"),
         (np.zeros((3, 1)), "left: the model failed at 1.5 s"),
     ],
 )
@@ -302,7 +300,8 @@ def test_a_result_is_as_any_other_and_never_asks_the_model_again():
     assert list(run) == ["time", "left.base_shear"] and len(run["time"]) > 1201
     said = run.summary()
     peak = couple(scene(), left=Bilinear(), step=0.005)["left.peak_base_shear"][-1]
-    assert f"{peak / 1e3:.4g}" in said, said
+    assert f"{peak / 1e3:.5g}" in said and "\n  correction " in said, said
+    assert "left         its restoring forces are another program's" in said and "right        its" not in said
     pytest.importorskip("matplotlib")
     for picture in ("overview", "floors", "loops", "drifts", "accelerations"):
         figure = run.plot(picture=picture)
@@ -313,6 +312,6 @@ def test_a_result_is_as_any_other_and_never_asks_the_model_again():
 
 
 def test_a_collapse_of_the_other_building_ends_the_run():
-    right = {"mass": [20e3, 20e3], "yield_force": [30e3, 30e3], "post_yield_ratio": 0.0, "p_delta": {"load": [4e6, 2e6]}}
+    right = {"mass": [20e3, 20e3], "yield_force": [30e3, 30e3], "post_yield_ratio": 0.0, "p_delta": True, "gravity_load": [4e6, 2e6]}
     run = couple(scene(right=right), left=Bilinear(), step=0.005)
     assert run["right.collapsed"][-1] and run["time"][-1] < 6.0

@@ -1,6 +1,6 @@
 //! What another program's building resists with beyond the stiffness of the scene, as it went into a run: lines over its steps.
 
-use pounding::engine::{Input, State};
+use pounding::engine::{Input, Side, State};
 
 /// Inputs that are linear in time from instant to instant. A run under them is the same run without the program they came from.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +32,13 @@ impl Corrections {
         debug_assert_eq!(lines.len(), self.inputs.len(), "a line for each input");
         self.starts.push(start);
         self.lines.extend_from_slice(lines);
+    }
+
+    /// The buildings that they are for.
+    pub fn sides(&self) -> impl Iterator<Item = Side> + '_ {
+        let is_of =
+            |side: &Side| self.inputs.iter().any(|input| matches!(input, Input::Correction(of, _) if of == side));
+        Side::BOTH.into_iter().filter(is_of)
     }
 
     /// s, where lines begin, counted from 0.

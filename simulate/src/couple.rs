@@ -143,6 +143,9 @@ pub fn couple<E>(
             break;
         }
     }
+    // What is read at the end has the forces there.
+    let last: Vec<Line> = ends.iter().flat_map(|end| end.lines(How::Held)).collect();
+    corrections.push(state.time(), &last);
     Ok(Coupled { corrections, stiffer: ends.into_iter().flat_map(|end| end.stiffer).collect() })
 }
 
@@ -304,7 +307,9 @@ fn shears(forces: &[f64]) -> Vec<f64> {
 fn of_stiffness<'a>(stiffness: &'a Stiffness, moved: &'a [f64]) -> Box<dyn Iterator<Item = f64> + 'a> {
     match stiffness {
         Stiffness::Shear(storeys) => Box::new(storeys.iter().zip(moved).map(|(stiffness, drift)| stiffness * drift)),
-        Stiffness::Matrix(rows) => Box::new(rows.iter().map(move |row| row.iter().zip(moved).map(|(k, u)| k * u).sum())),
+        Stiffness::Matrix(rows) => {
+            Box::new(rows.iter().map(move |row| row.iter().zip(moved).map(|(k, u)| k * u).sum()))
+        }
         _ => Box::new(std::iter::empty()),
     }
 }

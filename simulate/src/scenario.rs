@@ -5,7 +5,7 @@ use crate::corrections::Corrections;
 use pounding::description::Package;
 use pounding::engine::Model;
 use pounding::record::Record;
-use pounding::scene::{Scene, SceneError, Side, Stiffness};
+use pounding::scene::{Problem, Scene, SceneError, Side, Stiffness};
 use pounding::variables::{Parameter, Settings, Slot, Table, Value};
 use pounding::warnings::{self, Warning};
 use std::sync::Arc;
@@ -81,6 +81,10 @@ impl Scenario {
     /// Everything that is wrong with it then.
     pub fn with_outside(&self, stiffness: Vec<(Side, Stiffness)>) -> Result<Scenario, SceneError> {
         let mut settings = self.settings.clone();
+        if let Some((side, _)) = stiffness.iter().find(|(side, _)| settings.scene.building(*side).mass.is_empty()) {
+            let expected = "masses of a building, whose storeys a model can have";
+            return Err(Problem::new(side.to_string(), "", expected).into());
+        }
         settings.scene.restoring_corrections = true;
         for (side, stiffness) in stiffness {
             let Scene { left, right, .. } = &mut settings.scene;

@@ -57,7 +57,7 @@ impl Run {
     /// # Errors
     /// What keeps the run from going on.
     pub fn advance<'a>(&'a mut self, model: &'a Model, time: f64) -> Result<Solved<'a>, EngineError> {
-        while let Some(start) = self.corrections.start(self.set).filter(|start| *start < time) {
+        while let Some(start) = self.corrections.start(self.set).filter(|start| *start <= time) {
             self.go_on(model, start)?;
             self.corrections.apply(self.set, &mut self.state);
             self.set += 1;

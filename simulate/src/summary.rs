@@ -382,7 +382,18 @@ impl Run<'_> {
     }
 
     fn energy(&self) -> Option<Table> {
-        let names = ["input", "external", "kinetic", "strain", "gravity", "viscous", "soil", "hysteretic", "impact"];
+        let names = [
+            "input",
+            "external",
+            "kinetic",
+            "strain",
+            "gravity",
+            "viscous",
+            "soil",
+            "hysteretic",
+            "correction",
+            "impact",
+        ];
         let energy = |name: &str| self.seen(&format!("energy.{name}")).map(|seen| seen.last);
         let scale = Scale::of("J", names.into_iter().filter_map(energy));
         let mut table = Table::new(&[("energy at the end", ""), ("", &scale.unit)]);

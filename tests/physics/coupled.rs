@@ -152,7 +152,9 @@ fn meeting() -> impl Strategy<Value = Meeting> {
 /// m/s2, samples of a shaking with these frequencies and phases.
 fn shaking() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec((0.8..5.0_f64, 0.0..6.0_f64), 3).prop_map(|waves| {
-        let at = |time: f64| waves.iter().map(|(hertz, phase)| (std::f64::consts::TAU * hertz * time + phase).sin()).sum::<f64>();
+        let at = |time: f64| {
+            waves.iter().map(|(hertz, phase)| (std::f64::consts::TAU * hertz * time + phase).sin()).sum::<f64>()
+        };
         let ramp = |time: f64| (time / 0.3).min(1.0);
         (0..=(STOP / SAMPLE) as usize + 1).map(|i| 2.5 * ramp(i as f64 * SAMPLE) * at(i as f64 * SAMPLE)).collect()
     })
