@@ -2,9 +2,9 @@
 
     "$(ci/environment)" examples/couple_degrading.py --picture degrading.png
 
-A storey of the left building yields, softens beyond four yield drifts, and is pinched by what it has been through: reloaded, it heads
-for its farthest point so far (R. W. Clough's rule). The same building with bilinear storeys, which the FMU has itself, stands beside
-the same neighbour in the same ground motion.
+A storey of the left building yields, softens beyond four yield drifts, and loses stiffness by what it has been through: reloaded, it
+heads for its farthest point so far (R. W. Clough's rule). The same building with bilinear storeys, which the FMU has itself, stands
+beside the same neighbour in the same ground motion.
 """
 
 import argparse

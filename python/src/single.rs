@@ -3,7 +3,7 @@
 use crate::scene::{Scene, refusal};
 use crate::threads::work_on;
 use numpy::PyArray1;
-use pounding::engine::Model;
+use pounding::engine::{Model, Side};
 use pounding_simulate::instants;
 use pounding_simulate::outcome::Follower;
 use pounding_simulate::readings::{Kind, Reading};
@@ -72,8 +72,9 @@ pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -
 
 /// Which buildings another program has had, if any.
 fn coupled(Scenario { corrections, .. }: &Scenario) -> String {
-    let line = |side| {
-        format!("  {side:<12} its restoring forces are another program's; frequencies are of its first stiffness\n")
+    let line = |side: Side| {
+        let what = "its restoring forces are another program's; frequencies are of its first stiffness";
+        format!("  {:<12} {what}\n", side.to_string())
     };
     corrections.sides().map(line).collect()
 }
