@@ -68,6 +68,48 @@ def test_rows_with_early_return_have_every_impact_at_its_time():
     np.testing.assert_array_equal(speeds, expected["approach_velocity"])
 
 
+def test_a_building_of_another_program_converges_to_one_fmu():
+    """The table of docs/coupling.md: how, step, error, impacts and largest base shear inside and coupled."""
+    example = module("couple_opensees")
+    rows = {how: [row[1:] for row in example.compare(example.Storeys) if row[0] == how] for how in ("held", "line", "twice")}
+    for how, order in [("held", 1.0), ("line", 2.0), ("twice", 2.0)]:
+        errors = [row[1] for row in rows[how]]
+        assert np.log2(errors[0] / errors[-1]) / 3 == pytest.approx(order, abs=0.2), errors
+        *_, (_, _, inside, coupled, exact, found) = rows[how]
+        assert inside == coupled == 17
+        assert found == pytest.approx(exact, rel={"held": 2e-2, "line": 2e-4, "twice": 2e-4}[how])
+
+
+def test_masters_of_fmi_2_and_3_do_what_couple_does():
+    example = module("couple_opensees")
+    names = [f"left.displacement[{i}]" for i in range(1, 5)]
+    exact, line, twice = (np.column_stack([run[name] for name in names]) for run in (
+        example.pounding_fmu.simulate(example.scene(yield_force=example.YIELD, post_yield_ratio=example.RATIO), 0.005, 6.0),
+        *(example.pounding_fmu.couple(example.scene(), example.Storeys(), step=0.005, how=how, stop=6.0) for how in ("line", "twice")),
+    ))  # fmt: skip
+    errors = [np.abs(one - exact).max() / np.abs(exact).max() for one in (line, twice)]
+    by_states = next(module("couple_with_saved_states").compare())
+    assert by_states[1:] == pytest.approx(errors, rel=1e-6)
+    by_turns = next(module("couple_with_intermediate_update").compare())
+    assert by_turns[2] == pytest.approx(errors[0], rel=1e-6)
+
+
+def test_storeys_that_degrade_are_no_stiffer_than_at_first_and_stay_below_their_envelope(tmp_path):
+    example = module("couple_degrading")
+    degrading, bilinear = example.runs()
+    assert np.abs(degrading["left.storey_shear[1]"]).max() < 1.1 * np.abs(bilinear["left.storey_shear[1]"]).max()
+    assert degrading["left.peak_drift[1]"][-1] > 1.3 * bilinear["left.peak_drift[1]"][-1]
+    # By hand: out to six yield drifts, back, and out again.
+    storey = example.Storey(2.0, 1.0)
+    assert storey.move(0.25) == 0.5 and storey.move(0.5) == pytest.approx(1.0)
+    assert storey.move(3.0) == pytest.approx(1.0 + 0.05 * 2.0 * 1.5 - 0.05 * 2.0 * 1.0)
+    top = storey.shear
+    assert storey.move(2.9) == pytest.approx(top - 0.2)
+    assert storey.move(-0.1) == pytest.approx(-1.0 * (3.0 - top / 2.0 + 0.1) / (3.0 - top / 2.0 + 0.5))
+    example.draw(degrading, bilinear, tmp_path / "degrading.png")
+    assert (tmp_path / "degrading.png").stat().st_size > 20_000
+
+
 @pytest.mark.parametrize("program", ["one_run", "many_runs"])
 def test_short_programs(program):
     done = subprocess.run([sys.executable, fmus.EXAMPLES / f"{program}.py"], capture_output=True, text=True)

@@ -269,8 +269,8 @@ fn check((left, right): (Building, Building), meeting: Meeting, samples: &[f64])
             assert!(residual < 1e-11, "{residual:.1e} of the energy is not accounted for");
             apart(&rows, &truth)
         });
-        println!("{how:?} {errors:.2e?}");
-        assert!(errors[0] < 3e-2 && errors[1] < 3e-3, "{how:?}: {errors:.1e?}\n{text}\n{buildings:?}");
+        println!("{how:?} {:.2e} {:.2e}", errors[0], errors[1]);
+        assert!(errors[0] < 3e-2 && errors[1] < 3e-3, "{how:?}: {errors:?}\n{text}\n{buildings:?}");
     }
 }
 
