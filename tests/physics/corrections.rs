@@ -216,7 +216,7 @@ fn the_foundation_is_pushed_as_much_as_the_floor() {
 /// The spring of the storey yields by its own drift, whatever is beside it.
 #[test]
 fn beside_a_storey_that_yields_a_correction_is_one_more_spring() {
-    let (m, k, v_y, s) = (5e4, 6e7, 3e5, 2e5);
+    let (m, k, v_y, s) = (5e4_f64, 6e7, 3e5, 2e5);
     let scene = scene(&format!(
         "name = \"One\"\n[inputs]\nrestoring_corrections = true\n[outputs]\nenergy = true\n[left]\nmass = [{m:?}]\n\
          stiffness = [{k:?}]\ndamping = {{ ratio = 0.0 }}\nyield_force = [{v_y:?}]\n"

@@ -82,7 +82,7 @@ def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
 def yielding_storeys(runs: Runs) -> dict[str, list[int]]:
     """Of each building that has any, the storeys that can yield, counted from 1."""
     found = {
-        side: [i for i in range(1, count + 1) if f"{side}.storey_shear[{i}]" in runs.run]
+        side: [i for i in range(1, count + 1) if f"{side}.ductility[{i}]" in runs.run]
         for side, count in runs.scene.floors.items()
     }
     return {side: storeys for side, storeys in found.items() if storeys}
