@@ -70,7 +70,18 @@ function foundationLines(run, part) {
   return known.map(([name, side]) => ({ name, label: side, look: () => lineLook(side, 0) }));
 }
 
-const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "soil", "hysteretic", "impact", "gravity"];
+const ENERGIES = [
+  "input",
+  "external",
+  "kinetic",
+  "strain",
+  "correction",
+  "viscous",
+  "soil",
+  "hysteretic",
+  "impact",
+  "gravity",
+];
 
 const FOUNDATION_CHARTS = [
   ["displacement", "Displacement of foundations", "m"],

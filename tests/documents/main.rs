@@ -307,10 +307,11 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
     let linked = format!("{driven}{LINKS}");
-    let others = [facing_buildings(), without_outputs("yielding"), without_outputs("leaning"), linked, on_soil()];
+    let others =
+        [facing_buildings(), without_outputs("yielding"), without_outputs("leaning"), linked, on_soil(), of_a_matrix()];
     for scene in [&scene, &driven].into_iter().chain(&others) {
-        let scene =
-            Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
+        let inputs = "[inputs]\nfloor_forces = true\nrestoring_corrections = true\n";
+        let scene = Scene::from_toml(&format!("{scene}{inputs}[outputs]\nenergy = true")).unwrap();
         for row in Table::new(&scene).rows {
             let name = row.name.replace("right", "left");
             let (before, rest) = name.split_once('[').unwrap_or((&name, ""));
@@ -338,6 +339,11 @@ fn on_soil() -> String {
         .to_owned()
 }
 
+/// A building of another program that is given by a matrix.
+fn of_a_matrix() -> String {
+    "name = \"Matrix\"\n[left]\nmass = [1e5]\nstiffness_matrix = [[1e8]]\ndamping = { ratio = 0.05 }\n".to_owned()
+}
+
 /// An example without its outputs.
 fn without_outputs(name: &str) -> String {
     read(&format!("examples/scenes/{name}.toml")).split_once("[outputs]").unwrap().0.to_owned()
@@ -362,7 +368,8 @@ fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
     let facing = Scene::from_toml(&facing_buildings()).unwrap();
     let leaning = Scene::from_toml(&read("examples/scenes/leaning.toml")).unwrap();
     let linked = Scene::from_toml(&format!("{text}{LINKS}[outputs]\nenergy = true")).unwrap();
-    let soil = Scene::from_toml(&format!("{}[outputs]\nenergy = true", on_soil())).unwrap();
+    let inputs = "[inputs]\nrestoring_corrections = true\n";
+    let soil = Scene::from_toml(&format!("{}{inputs}[outputs]\nenergy = true", on_soil())).unwrap();
     let rows = [&scene, &facing, &leaning, &linked, &soil].map(|scene| Table::new(scene).rows).concat();
     let expected: BTreeSet<String> = (rows.iter().filter(is_real_output))
         .map(|row| {

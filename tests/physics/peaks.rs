@@ -1,7 +1,7 @@
 //! Peaks in continuous time: against closed forms, against ever denser readings of the same run, at any communication steps.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{Output, PeakOf, Side};
+use pounding::engine::{Input, LinearInput, Output, PeakOf, Side, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -10,10 +10,13 @@ use std::f64::consts::PI;
 fn all_of(run: &Run) -> Vec<PeakOf> {
     let of_side = |side: Side| {
         let floors = 0..run.model.floors(side);
+        let is_corrected = run.state.inputs().get(Input::Correction(side, 0)) != LinearInput::default();
+        let corrected =
+            floors.clone().filter(move |_| is_corrected).map(move |storey| PeakOf::StoreyShear(side, storey));
         let of_floor = move |floor| {
             [PeakOf::Displacement(side, floor), PeakOf::Drift(side, floor), PeakOf::Acceleration(side, floor)]
         };
-        floors.flat_map(of_floor).chain([PeakOf::BaseShear(side)])
+        floors.flat_map(of_floor).chain([PeakOf::BaseShear(side)]).chain(corrected)
     };
     [Side::Left, Side::Right].into_iter().flat_map(of_side).collect()
 }
@@ -30,14 +33,28 @@ fn now(run: &Run) -> Vec<f64> {
         PeakOf::Drift(side, storey) => run.displacement(side, storey) - run.displacement(side, storey - 1),
         PeakOf::Acceleration(side, floor) => run.read(Output::Acceleration(side, floor)),
         PeakOf::BaseShear(side) => run.read(Output::BaseShear(side)),
+        PeakOf::StoreyShear(side, storey) => run.read(Output::OfYielding(YieldingOf::Shear, side, storey)),
         _ => panic!("{of:?}"),
     };
     all_of(run).into_iter().map(|of| f64::abs(value(of))).collect()
 }
 
+/// A run at its start; what can be corrected is, by lines that no motion follows.
+fn begin(scene: &Scene, record: Option<&Record>) -> Run {
+    let mut run = Run::new(scene, record);
+    for side in [Side::Left, Side::Right].into_iter().filter(|_| scene.restoring_corrections) {
+        for storey in 0..run.model.floors(side) {
+            let size = 0.3 * scene.building(side).mass[storey] * (1.0 + storey as f64);
+            run.state.set_input(Input::Correction(side, storey), size);
+            run.state.set_input_rate(Input::Correction(side, storey), -1.7 * size);
+        }
+    }
+    run
+}
+
 /// The largest magnitudes of a run: read `count` times, then again around the largest of them, ever denser.
 fn dense(scene: &Scene, record: Option<&Record>, stop: f64, count: usize) -> Vec<f64> {
-    let mut run = Run::new(scene, record);
+    let mut run = begin(scene, record);
     run.to(0.0);
     let mut largest: Vec<(f64, f64)> = now(&run).into_iter().map(|value| (value, 0.0)).collect();
     let step = stop / count as f64;
@@ -77,7 +94,7 @@ fn dense(scene: &Scene, record: Option<&Record>, stop: f64, count: usize) -> Vec
 }
 
 fn compare(what: &str, scene: &Scene, record: Option<&Record>, stop: f64, count: usize) {
-    let mut run = Run::new(scene, record);
+    let mut run = begin(scene, record);
     run.to(stop);
     let got = peaks(&run);
     let dense = dense(scene, record, stop, count);
@@ -89,7 +106,7 @@ fn compare(what: &str, scene: &Scene, record: Option<&Record>, stop: f64, count:
         );
     }
     for step in [stop / 7.0, stop / 101.0, stop / 1013.7] {
-        let mut run = Run::new(scene, record);
+        let mut run = begin(scene, record);
         run.in_steps(step, stop);
         for ((of, got), other) in all_of(&run).into_iter().zip(&got).zip(peaks(&run)) {
             assert!((got - other).abs() <= 1e-12 * got, "{what}, {of:?}: {got:e} and {other:e} in steps of {step} s");

@@ -1,8 +1,10 @@
 //! Derivatives with respect to time, against what the solution does next.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::{ContactOutput as C, ContactRates, EnergyOutput as E, Output, PointRates, Rates, Side};
-use pounding::scene::{self, Scene};
+use pounding::engine::{
+    ContactOutput as C, ContactRates, EnergyOutput as E, Input, Output, PointRates, Rates, Side, YieldingOf,
+};
+use pounding::scene::{self, Scene, Stiffness};
 use std::path::Path;
 
 /// Everything that is differentiated, each with its first and second derivative.
@@ -14,12 +16,15 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(Output, f64, Rates)> {
         outputs.push(Output::BaseShear(side));
         let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration];
         outputs.extend((0..run.model.floors(side)).flat_map(|i| of_floor.map(|output| output(side, i))));
+        // 0 in both of a building with a matrix.
+        outputs.extend((0..run.model.floors(side)).map(|i| Output::OfYielding(YieldingOf::Shear, side, i)));
     }
     let of_contact = [C::Force, C::Penetration, C::Impulse, C::DissipatedEnergy];
     outputs.extend((0..run.model.contacts()).flat_map(|p| of_contact.map(|of| Output::Contact(p, of))));
     if now.energy().is_some() {
         outputs.extend(
-            [E::Input, E::Kinetic, E::Strain, E::Viscous, E::Impact, E::External, E::Gravity].map(Output::Energy),
+            [E::Input, E::Kinetic, E::Strain, E::Viscous, E::Impact, E::External, E::Correction, E::Gravity]
+                .map(Output::Energy),
         );
     }
     outputs.into_iter().map(|output| (output, now.read(output), now.rates(rates, output))).collect()
@@ -97,6 +102,27 @@ fn frames(law: &str, storeys: usize) -> Scene {
     scene.ground.record = Some("r.csv".into());
     scene.energy = true;
     scene
+}
+
+/// Corrections that are linear in time, of storeys and of the floors of a matrix.
+#[test]
+fn they_tell_what_corrections_do_next() {
+    let record = record(0.02, &(0..150).map(|k| 4.0 * (f64::from(k) * 0.35).sin()).collect::<Vec<_>>());
+    let mut storeys = frames("law = \"kelvin_voigt\"\nstiffness = 1.0e8\nrestitution = 0.5", 2);
+    storeys.restoring_corrections = true;
+    let mut matrix = storeys.clone();
+    matrix.left.stiffness = Stiffness::Matrix(vec![vec![6.92e7, -3.46e7], vec![-3.46e7, 3.46e7]]);
+    for scene in [storeys, matrix] {
+        let mut run = Run::new(&scene, Some(&record));
+        for (i, side) in [(0, Side::Left), (1, Side::Left), (1, Side::Right)] {
+            run.state.set_input(Input::Correction(side, i), 2e5);
+            run.state.set_input_rate(Input::Correction(side, i), -1.3e5);
+        }
+        let (first, second, closed) = errors(&mut run, 3.0, 2e-6);
+        assert!(closed > 20, "closed at {closed} times");
+        assert!(first < 1e-9 && second < 1e-5, "{first:.1e} and {second:.1e}");
+        assert!(run.energy().correction.abs() > 10.0);
+    }
 }
 
 #[test]

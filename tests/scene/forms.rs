@@ -72,7 +72,9 @@ fn what_is_left_out_has_its_default_and_whole_numbers_are_numbers() {
     assert_eq!((scene.description.as_str(), scene.stop_time), ("", None));
     assert_eq!((scene.left.mass.as_slice(), &scene.left.stiffness), ([1.0].as_slice(), &Stiffness::Shear(vec![2.0])));
     assert_eq!((scene.ground.record, scene.ground.scaling), (None, Scaling::Scale(1.0)));
-    assert!(!scene.floor_forces && !scene.energy && scene.contacts.is_empty());
+    assert!(!scene.floor_forces && !scene.restoring_corrections && !scene.energy && scene.contacts.is_empty());
+    let corrected = Scene::from_toml(&format!("{SHORT}\n[inputs]\nrestoring_corrections = true\n")).unwrap();
+    assert!(corrected.restoring_corrections && !corrected.floor_forces);
     assert!(scene.peaks && !scene.numbers_only);
     let other = Scene::from_toml(&format!("{SHORT}\n[outputs]\npeaks = false\nnumbers_only = true\n")).unwrap();
     assert!(!other.peaks && other.numbers_only && !other.energy);

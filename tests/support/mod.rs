@@ -18,7 +18,7 @@ pub use log::{Line, Log, Turn, environment, note_2, note_3};
 use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::variables::{Slot, Table, Type};
-pub use scenes::{COLLAPSE, LINKED, NO_CONTACT, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING, record};
+pub use scenes::{COLLAPSE, CORRECTED, LINKED, NO_CONTACT, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING, record};
 use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -171,6 +171,38 @@ stiffness = 1.0e4
 restitution = 0.65
 "#;
 
+/// What resists is corrected, of a building on soil and of one with a matrix; its floors can be pushed too.
+pub const CORRECTED: &str = r#"
+name = "Corrected"
+[left]
+mass = [3.65, 4.2]
+height = [0.5, 0.4]
+stiffness = [2910.0, 2000.0]
+damping = { dashpots = [3.0, 2.0] }
+initial_velocity = [0.1, 0.3]
+[left.foundation]
+mass = 2.0
+inertia = 0.3
+sway = { stiffness = 4.0e3, dashpot = 20.0 }
+rocking = { stiffness = 2.0e3, dashpot = 8.0 }
+[right]
+mass = [3.0, 2.5]
+stiffness_matrix = [[4700.0, -2200.0], [-2200.0, 2200.0]]
+damping = { matrix = [[6.0, -2.0], [-2.0, 3.0]] }
+[inputs]
+floor_forces = true
+restoring_corrections = true
+[outputs]
+energy = true
+[[contact]]
+left_floor = 2
+right_floor = 2
+gap = 0.003
+law = "kelvin_voigt"
+stiffness = 1.0e4
+restitution = 0.65
+"#;
+
 /// A storey whose side is pushed over: the run ends with its collapse.
 pub const COLLAPSE: &str = "name = \"Falls\"\n[left]\nmass = [1.0e5]\nstiffness = [1.0e6]\nheight = [3.0]\n\
     damping = { ratio = 0.0 }\nyield_force = [1.0e4]\npost_yield_ratio = [0.0]\np_delta = true\n\

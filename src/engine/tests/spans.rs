@@ -48,28 +48,27 @@ impl Case {
         let [left, right] = storeys.map(|count| building(random, count));
         let text = format!(
             "name = \"Spans\"\n[left]\n{left}[right]\n{right}[ground]\nrecord = \"r.csv\"\n[inputs]\n\
-            floor_forces = {has_forces}\n{}",
+            floor_forces = {has_forces}\nrestoring_corrections = {has_forces}\n{}",
             if is_linked { "[[link]]\nleft_floor = 1\nright_floor = 1\ndashpot = 3e4\n" } else { "" }
         );
         let times = (0..=SAMPLES).map(|k| k as f64 * SAMPLE).collect();
         let accelerations = (0..=SAMPLES).map(|_| random.between(-3.0, 3.0)).collect();
         let scene = Scene::from_toml(&text).unwrap();
         let model = Model::new(&scene, Some(&Record::new(times, accelerations))).unwrap();
-        let floors = if has_forces { model.system.structure.floors_of_both() } else { 0 };
-        let log = FlightLog::new(model.system.structure.lanes, floors);
+        let log = FlightLog::new(model.system.structure.lanes, model.inputs.pushes().count());
         Case { model, log, end: (Vec::new(), Vec::new()) }
     }
 
     /// Logs the flights over some samples, which begin with a jump of the ground's acceleration, from a start with other
-    /// velocities, after a gap if there are flights already; under forces that act on all floors, on one or on none for some
-    /// flights each.
+    /// velocities, after a gap if there are flights already; under forces and corrections of all floors and storeys, of one or of none
+    /// for some flights each.
     fn fly(&mut self, random: &mut Random, samples: usize, factor: f64) {
         self.log.close(Motion { q: &self.end.0, v: &self.end.1 });
         let (mut state, system) = (self.model.start(0.0), &self.model.system);
         system.convert_to_flight(&mut state.base, [(); 2].map(|()| vec![0.0; system.structure.lanes]).each_mut());
         state.base.v.iter_mut().for_each(|v| *v *= factor);
         self.end = (state.base.q.clone(), state.base.v.clone());
-        let mut forces = vec![(0.0, 0.0); self.model.system.structure.floors_of_both()];
+        let mut forces = vec![(0.0, 0.0); self.model.inputs.pushes().count().max(1)];
         for k in 0..samples {
             let segment = self.model.system.ground.as_ref().unwrap().segment(k as u64 % 31);
             if k % 4 == 2 {
@@ -130,14 +129,25 @@ impl Case {
         std::iter::once((start.q.to_vec(), start.v.to_vec())).chain(later).collect()
     }
 
-    /// What a force adds to a quantity at a time of flight `k`, s.
+    /// What forces and corrections add to a quantity at a time of flight `k`, s.
     fn push_on(&self, place: usize, k: usize, time: f64) -> f64 {
         let structure = &self.model.system.structure;
-        let Some(PeakOf::Acceleration(side, floor)) = self.model.watched.rows.at(place) else { return 0.0 };
         let Some((forces, rates)) = self.flights().forces.and_then(|forces| forces.acting(k)) else { return 0.0 };
-        let number = structure.number(side, floor);
-        (forces[number] + rates[number] * time)
-            * structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
+        let at = |number: usize| forces[number] + rates[number] * time;
+        let correction = |side, storey| match storey < structure.floors(side) {
+            true => at(structure.floors_of_both() + structure.number(side, storey)),
+            false => 0.0,
+        };
+        match self.model.watched.rows.at(place) {
+            Some(PeakOf::Acceleration(side, floor)) => {
+                let pushed = correction(side, floor) - correction(side, floor + 1);
+                (at(structure.number(side, floor)) + pushed)
+                    * structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
+            }
+            Some(PeakOf::BaseShear(side)) => -correction(side, 0),
+            Some(PeakOf::StoreyShear(side, storey)) => -correction(side, storey),
+            _ => 0.0,
+        }
     }
 
     fn flights(&self) -> Flights<'_> {

@@ -126,6 +126,46 @@ fn rigid_floors_answer_together() {
     }
 }
 
+/// Corrections accelerate both floors of their storey or its foundation, and shears are less by them; on soil and with a matrix.
+#[test]
+fn corrections_answer_at_once() {
+    for fmu in Fmu::both(CORRECTED) {
+        let instance = fmu.instance();
+        instance.enter();
+        // Of four floors by forces, of the left ones by 3 corrections, of their foundation and shears by 1, 1 and 2, of the right
+        // ones and their base shear by 2 and 2.
+        let expected = 4 + (3 + 1 + 1 + 2) + (2 + 2);
+        assert_eq!(compare_partial(&instance), expected);
+        assert_eq!(instance.exit(), OK);
+        for k in 0..60 {
+            assert_eq!(instance.set_real("left.storey_correction[2]", f64::from(k % 7)), OK);
+            assert_eq!(instance.step(f64::from(k) * 0.01, 0.01), OK);
+            assert_eq!(compare_partial(&instance), expected);
+        }
+        assert!(instance.integer("impacts") > 0);
+    }
+}
+
+/// Through floors that are held together a correction reaches the other building.
+#[test]
+fn corrections_push_rigid_floors_together() {
+    for fmu in Fmu::both(&RIGID.replace("[inputs]\n", "[inputs]\nrestoring_corrections = true\n")) {
+        let instance = fmu.instance();
+        instance.start();
+        assert_eq!(instance.set_real("left.storey_correction[1]", 30.0), OK);
+        let mut pressing = 0;
+        for n in 0..400 {
+            assert_eq!(instance.step(f64::from(n) * 0.005, 0.005), OK, "{:?}", instance.log());
+            let forces = [1, 2, 3].map(|p| instance.real(&format!("contact[{p}].force")));
+            if forces.iter().all(|force| *force == 0.0 || *force > 0.5) {
+                compare_partial(&instance);
+                pressing += usize::from(forces[0] > 0.0 || forces[2] > 0.0);
+            }
+        }
+        assert!(pressing > 20, "{pressing}");
+    }
+}
+
 #[test]
 fn seeds_add_up() {
     for fmu in Fmu::both(SCENE) {

@@ -6,7 +6,7 @@ use pounding::FmiVersion;
 use pounding::variables::{Row, Type, Unit, Variability};
 use std::collections::BTreeMap;
 
-const SCENES: [&str; 6] = [SCENE, RECORD_SCENE, UNEVEN, YIELDING, LINKED, COLLAPSE];
+const SCENES: [&str; 7] = [SCENE, RECORD_SCENE, UNEVEN, YIELDING, LINKED, CORRECTED, COLLAPSE];
 
 /// What each variable is, by its name.
 fn by_name(fmu: &Fmu) -> BTreeMap<&str, (u32, &Row)> {

@@ -35,7 +35,7 @@ fn every_single_byte_counts() {
                 let message = instance.refused(&altered);
                 let expected = match place {
                     0..8 => "not a state of an FMU of this kind",
-                    8..12 => "of another version: expected format 12",
+                    8..12 => "of another version: expected format 13",
                     12..28 => "a state of the FMU {",
                     28..36 => "damaged, ",
                     _ => "damaged, its checksum does not fit",

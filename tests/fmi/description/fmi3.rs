@@ -1,6 +1,6 @@
 //! The description in FMI 3.0 says the same as that in FMI 2.0, in the words of the newer standard.
 
-use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, UNEVEN, YIELDING, package};
+use crate::support::scenes::{CORRECTED, LINKED, NO_CONTACT, RECORD_SCENE, SCENE, UNEVEN, YIELDING, package};
 use fmi::model_description::fmi2;
 use fmi::model_description::fmi3::{
     Causality, DependencyKind, Initial, ModelDescription, ModelVariable, TypeDefinition, Unknown, Variability,
@@ -9,7 +9,7 @@ use fmi::model_description::fmi3::{
 use pounding::FmiVersion;
 use std::collections::HashSet;
 
-const SCENES: [&str; 6] = [SCENE, RECORD_SCENE, NO_CONTACT, UNEVEN, YIELDING, LINKED];
+const SCENES: [&str; 7] = [SCENE, RECORD_SCENE, NO_CONTACT, UNEVEN, YIELDING, LINKED, CORRECTED];
 
 pub fn describe(text: &str) -> ModelDescription {
     ModelDescription::from_string(text).unwrap()

@@ -3,7 +3,7 @@
 mod fmi3;
 mod golden;
 
-use crate::support::scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, numbers_only, package};
+use crate::support::scenes::{CORRECTED, LINKED, NO_CONTACT, RECORD_SCENE, SCENE, numbers_only, package};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
 use pounding::FmiVersion;
 use pounding::description::Package;
@@ -15,7 +15,7 @@ fn describe(scene_text: &str) -> ModelDescription {
 
 #[test]
 fn another_importer_finds_it_valid() {
-    for scene in [SCENE, RECORD_SCENE, NO_CONTACT, LINKED] {
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT, LINKED, CORRECTED] {
         for scene in [scene.to_owned(), numbers_only(scene)] {
             for version in FmiVersion::ALL {
                 assert_eq!(problems(&package(&scene).model_description(version), version), [""; 0]);
@@ -33,6 +33,29 @@ fn problems(text: &str, version: FmiVersion) -> Vec<String> {
         FmiVersion::V3 => fmi3::describe(text).validate(),
     };
     problems.into_iter().map(|problem| problem.message).collect()
+}
+
+/// Those of storeys, of floors with a matrix, and what they make of the outputs.
+#[test]
+fn what_can_be_corrected_has_these_variables() {
+    let described = describe(CORRECTED);
+    let lines: Vec<String> = described.modelVariables.iter().map(in_words).collect();
+    for i in 1..=2 {
+        for expected in [
+            format!("left.storey_correction[{i}] input Real N"),
+            format!("left.storey_shear[{i}] output Real N"),
+            format!("left.peak_storey_shear[{i}] output Real N"),
+            format!("right.restoring_correction[{i}] input Real N"),
+        ] {
+            assert_eq!(lines.iter().filter(|line| **line == expected).count(), 1, "{expected}");
+        }
+    }
+    assert!(lines.contains(&"energy.correction output Real J".to_owned()));
+    let is_absent = |name: &str| !lines.iter().any(|line| line.starts_with(name));
+    assert!(["left.restoring", "right.storey_"].into_iter().all(is_absent));
+    let plain = describe(&CORRECTED.replace("restoring_corrections = true\n", ""));
+    let knows = |variable: &ScalarVariable| ["correction", "storey_shear"].iter().any(|it| variable.name.contains(it));
+    assert!(!plain.modelVariables.iter().any(knows));
 }
 
 /// Name, causality and type of every variable, in the words of the contract with the users.

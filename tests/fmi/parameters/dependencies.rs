@@ -116,6 +116,12 @@ fn leaning() -> String {
     with(&left, "stiffness = [2500.0, 2200.0]", "[false, true]\ngravity_load = [10.0, 400.0]")
 }
 
+/// The same with corrections of what the buildings resist with.
+fn corrected(scene: &str) -> String {
+    let inputs = "[inputs]\nrestoring_corrections = true\n";
+    if scene.contains("[inputs]\n") { scene.replace("[inputs]\n", inputs) } else { format!("{scene}\n{inputs}") }
+}
+
 #[test]
 fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
     let at_rest = {
@@ -127,7 +133,13 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
         lines.collect::<Vec<_>>().join("\n")
     };
     let leaning = leaning();
+    let corrected = [SCENE, YIELDING, &at_rest].map(corrected);
+    let [driven_and, yielding_and, at_rest_and] = corrected.each_ref();
     for scene in [
+        driven_and,
+        yielding_and,
+        at_rest_and,
+        CORRECTED,
         RICH,
         SCENE,
         UNEVEN,
@@ -150,7 +162,9 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
 fn outputs_answer_at_once_to_what_they_are_said_to_depend_on() {
     let rigid = SCENE.replace("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.0");
     assert_ne!(rigid, SCENE);
-    for scene in [SCENE, YIELDING, LINKED, &rigid] {
+    let corrected = [SCENE, YIELDING, &rigid].map(corrected);
+    let [driven_and, yielding_and, rigid_and] = corrected.each_ref();
+    for scene in [SCENE, YIELDING, LINKED, &rigid, driven_and, yielding_and, rigid_and, CORRECTED] {
         let fmu = Fmu::new(scene);
         let instance = fmu.instance();
         let variables = &fmu.description.modelVariables;

@@ -15,8 +15,11 @@ fn laws() -> [String; 8] {
 pub fn scene(law: &str, has_record: bool) -> String {
     // Without a gap rigid floors are held together where the ground presses them.
     let gap = if law.contains("stereomechanical") { 0.0 } else { 0.003 };
-    let driven =
-        if has_record { "[ground]\nrecord = \"record.csv\"\npga = 6.0\n" } else { "[inputs]\nfloor_forces = true\n" };
+    let driven = if has_record {
+        "[ground]\nrecord = \"record.csv\"\npga = 6.0\n"
+    } else {
+        "[inputs]\nfloor_forces = true\nrestoring_corrections = true\n"
+    };
     format!(
         "name = \"Saved\"\n[left]\nmass = [25e3, 20e3]\nstiffness = [3.46e6, 3e6]\ndamping = {{ ratio = 0.05 }}\n\
          initial_velocity = [0.1, 0.3]\n\
@@ -41,6 +44,8 @@ fn point(instance: &Instance<'_>, has_record: bool, k: u32) -> (Vec<u64>, Vec<Li
         let force = if (100..180).contains(&k) { 4e5 } else { 1e3 };
         assert_eq!(instance.set_real("ground.acceleration", f64::from(k * 37 % 64) / 8.0 - 4.0), OK);
         assert_eq!(instance.set_real("left.force[2]", force), OK);
+        assert_eq!(instance.set_real("left.storey_correction[2]", 2e3 * f64::from(k % 5)), OK);
+        assert_eq!(instance.set_rate("left.storey_correction[2]", 1, 1e5 * f64::from(k % 3) - 1e5), OK);
         assert_eq!(instance.set_rate("ground.acceleration", 1, f64::from(k % 9) - 4.0), OK);
         assert_eq!(instance.set_rate("left.force[2]", 1, 1e4 * f64::from(k % 7) - 3e4), OK);
     }

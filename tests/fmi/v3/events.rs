@@ -154,7 +154,7 @@ fn follow(instance: &Instance<'_>, inputs: &[(u32, f64)], from: f64, end: f64) -
 
 #[test]
 fn whatever_the_flags_the_bits_are_the_same() {
-    for (scene, text) in [SCENE, RECORD_SCENE, RICH, UNEVEN, YIELDING, LINKED].into_iter().enumerate() {
+    for (scene, text) in [SCENE, RECORD_SCENE, RICH, UNEVEN, YIELDING, LINKED, CORRECTED].into_iter().enumerate() {
         let fmu = Fmu::v3(text);
         let inputs = fmu.table.iter().filter(|(_, row)| matches!(row.slot, Slot::Input(_)));
         let inputs = inputs.map(|(reference, _)| reference).collect::<Vec<_>>();

@@ -135,7 +135,7 @@ fn a_line_goes_on_to_the_same_bits_over_early_returns() {
 
 #[test]
 fn each_event_gives_a_turn_to_read() {
-    for (scene, text) in [SCENE, RICH, UNEVEN, YIELDING, LINKED].into_iter().enumerate() {
+    for (scene, text) in [SCENE, RICH, UNEVEN, YIELDING, LINKED, CORRECTED].into_iter().enumerate() {
         let fmu = Fmu::v3(text);
         let plain = fmu.instance();
         plain.initialize();

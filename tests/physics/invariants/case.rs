@@ -258,11 +258,11 @@ impl Case {
     }
 }
 
-/// The largest value that a master gives an input: some m/s2, or the force that gives a floor one.
+/// The largest value that a master gives an input: some m/s2, the force that gives a floor some, or a correction likewise.
 fn size(scene: &Scene, input: Input) -> f64 {
     match input {
         Input::GroundAcceleration => 4.0,
-        Input::Force(side, floor) => 1.5 * scene.building(side).mass[floor],
+        Input::Force(side, floor) | Input::Correction(side, floor) => 1.5 * scene.building(side).mass[floor],
         _ => panic!("how large is {input:?}?"),
     }
 }

@@ -26,7 +26,7 @@ pub fn mirrored(case: &Case) -> Case {
         shown.of = on_the_other_side(shown.of);
     }
     for driven in &mut case.driven {
-        if let Input::Force(side, _) = &mut driven.input {
+        if let Input::Force(side, _) | Input::Correction(side, _) = &mut driven.input {
             *side = side.opposite();
         }
     }
@@ -51,7 +51,7 @@ fn on_the_other_side(mut of: Output) -> Output {
         BaseShear(side) | Collapsed(side) | CollapseTime(side) | Foundation(side, _) => Some(side),
         OfStorey(_, side, _) | OfYielding(_, side, _) => Some(side),
         Peak(PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _)) => Some(side),
-        Peak(PeakOf::BaseShear(side)) => Some(side),
+        Peak(PeakOf::BaseShear(side) | PeakOf::StoreyShear(side, _)) => Some(side),
         Peak(PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_)) => None,
         Output::GroundAcceleration | Output::Contact(..) | Output::Link(..) => None,
         Output::Impacts | Output::Energy(_) => None,
@@ -202,7 +202,7 @@ pub fn in_units(case: &Case, units: Units) -> Case {
         record.accelerations.iter_mut().for_each(|a| *a *= units.acceleration());
     }
     for driven in &mut case.driven {
-        let is_force = matches!(driven.input, Input::Force(..));
+        let is_force = matches!(driven.input, Input::Force(..) | Input::Correction(..));
         driven.size *= if is_force { units.force() } else { units.acceleration() };
     }
     case.start *= units.time;

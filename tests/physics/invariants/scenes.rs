@@ -35,6 +35,7 @@ pub static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(of_links_and_soil());
     rows.extend(of_single_buildings());
     rows.extend(of_masters());
+    rows.extend(of_corrections());
     rows.extend(of_tall_buildings());
     rows
 });
@@ -345,6 +346,39 @@ fn of_masters() -> Vec<Row> {
         )
         .impacts(1)
         .switches(5),
+    ]
+}
+
+/// A master that corrects what buildings resist with: storeys that yield as well, a matrix, soil, links, many storeys.
+fn of_corrections() -> Vec<Row> {
+    let laws = Laws { spring: 2e8, hertz: 2e9, exponent: 1.5, restitution: 0.5 };
+    let with = |inputs: &str| format!("[inputs]\nrestoring_corrections = true\n{inputs}");
+    let matrix = "[left]\nmass = [4e4, 3e4]\nstiffness_matrix = [[5e7, -2e7], [-2e7, 2e7]]\n\
+                  damping = { matrix = [[2e5, -5e4], [-5e4, 1e5]] }\n";
+    let (elastic, _) = LEFT.split_once("yield_force").unwrap();
+    let linked = |law: &str| format!("{LEFT}{RIGHT}{LINKS}{}", contact((2, 2), 0.008, law));
+    let apart = |left: &str, law: &str| format!("{left}{RIGHT}{}", contact((2, 2), 0.006, law));
+    let on_soil = format!("{ON_SOIL}{BESIDE}{}", between_soil_and_neighbour(&laws.hertz_damped("exact")));
+    let damped = laws.hertz_damped("exact");
+    let driven = |text: &str| Case::new(with_account(text), None, 4.0);
+    let held = |text: String| shaken(&text, 4, 4.0).driven_by(Master::Held);
+    let changing = |text: String| shaken(&text, 4, 4.0).driven_by(Master::Changing);
+    vec![
+        Row::new("corrections, held", held(apart(elastic, &damped) + &with(""))).impacts(1),
+        Row::new("corrections and impulses", changing(apart(elastic, &laws.stereomechanical()) + &with(""))).impacts(1),
+        Row::new("corrections of a matrix", changing(apart(matrix, &laws.kelvin_voigt()) + &with(""))).impacts(1),
+        Row::new("corrections beside yields, and links", changing(linked(&damped) + &with(""))).impacts(1).switches(5),
+        Row::new("corrections on soil", changing(on_soil + &with(""))).impacts(2).switches(5),
+        Row::new(
+            "corrections, forces and a ground, linear",
+            driven(&(apart(elastic, &laws.hertz()) + &with("floor_forces = true\n"))).driven_by(Master::Linear),
+        )
+        .rounding(2e-12)
+        .impacts(1),
+        Row::new(
+            "corrections of towers",
+            shaken(&(towers([9, 12], "", "") + &with("")), 5, 8.0).driven_by(Master::Changing),
+        ),
     ]
 }
 

@@ -88,8 +88,19 @@ fn keys() {
         ("floor_forces = true", "floor_forces = 1", &["inputs.floor_forces = 1: expected true or false"]),
         (
             "floor_forces = true",
+            "floor_forces = 1\nrestoring_corrections = [true]\nstorey_corrections = true",
+            &[
+                "inputs.floor_forces = 1: expected true or false",
+                "inputs.restoring_corrections = [true]: expected true or false",
+                "inputs.storey_corrections = true: expected a known key (floor_forces, restoring_corrections)",
+            ],
+        ),
+        (
+            "floor_forces = true",
             "floor_force = true",
-            &["inputs.floor_force = true: expected a known key (floor_forces); did you mean floor_forces?"],
+            &[
+                "inputs.floor_force = true: expected a known key (floor_forces, restoring_corrections); did you mean floor_forces?",
+            ],
         ),
     ]);
 }
