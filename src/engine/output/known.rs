@@ -1,6 +1,7 @@
 //! Storage of the quantities of a point that are worked out when first read.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::peaks::clearance::PeakClearance;
 use crate::engine::peaks::room::PeakRoom;
 use crate::engine::system::buffers::Buffers;
 use std::cell::{Cell, OnceCell, RefCell};
@@ -62,6 +63,8 @@ impl FloorMotions {
 pub(crate) struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
+    /// For which segments they are known beforehand.
+    pub clearance: PeakClearance,
     /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity.
     pub folded: Peaks,
     pub identity: u64,
