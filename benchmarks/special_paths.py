@@ -51,6 +51,7 @@ PATHS = {
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
     "flight_work": "work over a flight as a quadratic form (`structure/flight_work.rs`)",
     "flight_log": "peaks of flights read many at once (`peaks/fold.rs`, `bounds/span.rs`)",
+    "peak_clearance": "for how long no peak can rise (`peaks/clearance.rs`)",
     "settled": "modes whose swing is below rounding (`peaks/settled.rs`)",
 }
 

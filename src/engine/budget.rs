@@ -23,8 +23,8 @@ pub(super) fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f6
 pub(super) struct Progress {
     /// Time at which the communication step began, s.
     pub start: f64,
-    /// The counts at its beginning.
-    pub before: Counters,
+    /// The steps at its beginning.
+    pub before: Steps,
     /// The number of impacts at its beginning.
     pub impacts_before: u64,
     /// Number of consecutive steps of length 0.
@@ -33,11 +33,39 @@ pub(super) struct Progress {
     pub most: u64,
 }
 
-impl Counters {
-    /// Work so far, in flights.
+/// The counts that the limit knows.
+#[derive(Clone, Copy)]
+pub(super) struct Steps {
+    /// In contact.
+    pub in_contact: u64,
+    /// In which an element yields and no contact is closed.
+    pub yielding: u64,
+    /// Apart.
+    pub apart: u64,
+    /// Pieces of flights that were searched.
+    pub searched: u64,
+    /// For the energy account.
+    pub energy: u64,
+}
+
+impl Steps {
+    /// The work of all, in flights.
     pub(super) fn work(&self) -> u64 {
-        let with_series = self.contact_steps() + self.yielding_steps();
-        20 * with_series + 10 * self.narrow_phase_pieces + 6 * self.energy_steps + self.flight_steps()
+        20 * (self.in_contact + self.yielding) + 10 * self.searched + 6 * self.energy + self.apart
+    }
+}
+
+impl Counters {
+    /// Those of the run so far.
+    #[inline]
+    pub(super) fn steps(&self) -> Steps {
+        Steps {
+            in_contact: self.contact_steps(),
+            yielding: self.yielding_steps(),
+            apart: self.flight_steps(),
+            searched: self.narrow_phase_pieces,
+            energy: self.energy_steps,
+        }
     }
 }
 

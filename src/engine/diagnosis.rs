@@ -66,13 +66,14 @@ impl Model {
     /// The work of a communication step at its beginning.
     pub(in crate::engine) fn progress(&self, state: &State) -> Progress {
         let State { time, counters, base, .. } = state;
-        let most = counters.work() + self.most_flights as u64;
-        Progress { start: *time, before: *counters, impacts_before: base.impacts, stalled: 0, most }
+        let before = counters.steps();
+        let most = before.work() + self.most_flights as u64;
+        Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most }
     }
 
     /// Refuses to go on beyond the limit on work, or with numbers that are not finite.
     pub(in crate::engine) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
-        if state.counters.work() > progress.most {
+        if state.counters.steps().work() > progress.most {
             return Err(EngineError::TooMuchWork(self.give_up(state, progress)));
         }
         if progress.stalled > MOST_STEPS_AT_ONCE {
@@ -83,14 +84,13 @@ impl Model {
 
     #[cold]
     fn give_up(&self, state: &State, progress: &Progress) -> GivenUp {
-        let (counters, before, base) = (&state.counters, &progress.before, &state.base);
-        let in_contact = counters.contact_steps() - before.contact_steps();
-        let yielding = counters.yielding_steps() - before.yielding_steps();
-        let steps = in_contact + yielding + counters.flight_steps() - before.flight_steps();
+        let (now, before, base) = (state.counters.steps(), &progress.before, &state.base);
+        let (in_contact, yielding) = (now.in_contact - before.in_contact, now.yielding - before.yielding);
+        let steps = in_contact + yielding + now.apart - before.apart;
         let (impacts, time, start) = (base.impacts - progress.impacts_before, base.time(), progress.start);
-        let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
+        let looked = now.searched - before.searched;
         let remedy = match () {
-            _ if counters.energy_steps - before.energy_steps > 16 * steps => {
+            _ if now.energy - before.energy > 16 * steps => {
                 format!("the energy account takes the most of it: leave outputs.energy out; {}", self.quick())
             }
             _ if self.is_outside_record(base) && in_contact + yielding + looked < steps / 16 => {

@@ -1,6 +1,7 @@
 //! Getting and setting values by value reference.
 
 use super::instance::Slave;
+use super::run::Run;
 use super::sequence::Phase;
 use super::status::Refusal;
 use crate::FmiVersion;
@@ -8,9 +9,26 @@ use crate::description::Category;
 use crate::engine::Input;
 use crate::variables::{Calculated, Row, Settings, Slot, Type, Unit, Value};
 use crate::warnings;
+use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 impl Slave {
+    /// Reads outputs that are numbers, up to the first variable that is anything else, and returns how many: most of what
+    /// masters read after each step. [`Slave::get`] reads the others.
+    pub fn read_outputs(&mut self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> usize {
+        let (Run::Started(simulation), None) = (&mut self.run, &self.held) else { return 0 };
+        let now = simulation.now();
+        let mut count = 0;
+        for (&reference, value) in references.iter().zip(values) {
+            let Some(&Row { slot: Slot::Output(output), ty: Type::Real(_), .. }) = self.table.row(reference) else {
+                break;
+            };
+            value.write(now.read(output));
+            count += 1;
+        }
+        count
+    }
+
     /// Reads each variable in turn and hands over its place and value; `take` is `None` where it is not of `wanted` type.
     ///
     /// # Errors

@@ -86,7 +86,7 @@ impl Slave {
     ///
     /// # Errors
     /// A call that the standard does not allow in the present phase.
-    #[inline]
+    #[inline(always)]
     pub fn check(&self, call: Call) -> Result<(), Refusal> {
         if call.is_allowed_in(self.phase, self.interface.version()) { Ok(()) } else { Err(self.out_of_sequence(call)) }
     }

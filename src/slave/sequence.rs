@@ -60,6 +60,22 @@ const AFTER_INITIALIZATION: &[Phase] = &[StepComplete, Terminated, Error];
 const STEPPED: &[Phase] = &[StepComplete, Terminated];
 const NEVER: &[Phase] = &[];
 
+impl Phase {
+    const fn bit(self) -> u8 {
+        1 << self as u8
+    }
+}
+
+/// The bits of some phases.
+const fn bits(mut phases: &[Phase]) -> u8 {
+    let mut bits = 0;
+    while let [first, rest @ ..] = phases {
+        bits |= first.bit();
+        phases = rest;
+    }
+    bits
+}
+
 /// A row of a table: name of the C function, and phases in which it may be called.
 type CallRow = (&'static str, &'static [Phase]);
 
@@ -81,12 +97,22 @@ macro_rules! calls {
 
         impl Call {
             /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
-            #[inline(always)]
             pub const fn rule(self, version: FmiVersion) -> CallRow {
                 match (self, version) {
                     $((Call::$call, FmiVersion::V2) => $of_2, (Call::$call, FmiVersion::V3) => $of_3,)+
                     (Call::NotOffered(name), _) => (name, NEVER),
                 }
+            }
+
+            /// Whether the standard allows the call in a phase.
+            #[inline(always)]
+            pub const fn is_allowed_in(self, phase: Phase, version: FmiVersion) -> bool {
+                let phases = match (self, version) {
+                    $((Call::$call, FmiVersion::V2) => const { bits($of_2.1) },)+
+                    $((Call::$call, FmiVersion::V3) => const { bits($of_3.1) },)+
+                    (Call::NotOffered(_), _) => 0,
+                };
+                phases & phase.bit() != 0
             }
         }
     };
@@ -138,11 +164,5 @@ impl Call {
     /// Name of the C function.
     pub const fn name(self, version: FmiVersion) -> &'static str {
         self.rule(version).0
-    }
-
-    /// Whether the standard allows the call in a phase.
-    #[inline(always)]
-    pub fn is_allowed_in(self, phase: Phase, version: FmiVersion) -> bool {
-        self.rule(version).1.contains(&phase)
     }
 }

@@ -64,6 +64,7 @@ impl Simulation {
     }
 
     /// Goes on to a time, s, or to the next event before it where it `stops` at events; whether an event waits there.
+    #[inline]
     pub(super) fn advance(
         &mut self,
         until: f64,

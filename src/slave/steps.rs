@@ -42,10 +42,10 @@ impl Slave {
     ///
     /// # Errors
     /// Those of [`Slave::do_step`].
+    #[inline]
     pub fn begin_step(&mut self, current: f64, step: f64) -> Result<StepPart, Refusal> {
         if self.is_over() {
-            let status = self.tell_collapse();
-            return Ok(StepPart::Done(self.stepped(status, current + step, false)));
+            return Ok(self.done(current + step, false));
         }
         let target = self.target(current, step)?;
         if self.updates.inputs {
@@ -60,8 +60,15 @@ impl Slave {
     /// enters Event Mode.
     pub(super) fn advance(&mut self, target: f64, held: Option<Held>) -> Result<StepPart, Refusal> {
         let (returns_early, updates) = (self.interface.returns_early(), self.updates.outputs);
-        let waits =
-            self.with_episodes(|simulation, note| simulation.advance(target, returns_early || updates, note))?;
+        let stops = returns_early || updates;
+        let waits = self.with_episodes(|simulation, note| simulation.advance(target, stops, note))?;
+        if waits || held.is_some() { self.end_at_events(target, waits, held) } else { Ok(self.done(target, false)) }
+    }
+
+    /// Ends a part of a step where an event waits, or discrete outputs have been held.
+    #[inline(never)]
+    fn end_at_events(&mut self, target: f64, waits: bool, held: Option<Held>) -> Result<StepPart, Refusal> {
+        let returns_early = self.interface.returns_early();
         if waits && !(returns_early && self.interface.has_event_mode()) {
             self.handle_event()?;
         }
@@ -73,15 +80,16 @@ impl Slave {
             Some(held) => self.keep(held)?,
             None => false,
         };
-        let status = self.tell_collapse();
-        let needs_event_mode = is_changed || self.run.has_event();
-        Ok(StepPart::Done(self.stepped(status, target, needs_event_mode)))
+        Ok(self.done(target, is_changed || self.run.has_event()))
     }
 
-    fn stepped(&self, status: Status, target: f64, needs_event_mode: bool) -> Stepped {
+    /// The step is over.
+    #[inline(always)]
+    fn done(&mut self, target: f64, needs_event_mode: bool) -> StepPart {
+        let status = self.tell_collapse();
         let time = self.run.time();
         let is_early = self.interface.returns_early() && status == Status::Ok && time < target;
-        Stepped { status, time, is_early, needs_event_mode, is_over: self.is_over() }
+        StepPart::Done(Stepped { status, time, is_early, needs_event_mode, is_over: self.is_over() })
     }
 
     /// The status of a step: FMI 2.0 has no other way to say that the run has ended than to discard it. FMI 3.0 has, and a
@@ -154,11 +162,12 @@ impl Slave {
 
     /// The discrete outputs as they are, where the master sees them change in Event Mode only although events are handled
     /// within steps.
-    #[inline]
+    #[inline(always)]
     pub(super) fn hold(&mut self) -> Result<Option<Held>, Refusal> {
         if self.interface.holds_discrete_outputs() { self.read_held().map(Some) } else { Ok(None) }
     }
 
+    #[inline(never)]
     fn read_held(&mut self) -> Result<Held, Refusal> {
         self.held = None;
         let Slave { table, run, settings, .. } = self;
@@ -175,32 +184,42 @@ impl Slave {
     }
 
     /// The communication point that a step leads to, or everything that is wrong with the step.
+    #[inline]
     fn target(&self, current: f64, step: f64) -> Result<f64, Refusal> {
-        let (mut problems, now) = (Vec::new(), self.run.time());
-        let tolerance = |time: f64| TIME_TOLERANCE * time.abs().max(1.0);
-        if !(current.is_finite() && (current - now).abs() <= tolerance(now)) {
+        let (now, target) = (self.run.time(), current + step);
+        // Written so that a NaN is refused.
+        let is_possible = begins_at(current, now) && step > 0.0 && is_time(target) && !self.is_beyond_stop(target);
+        if !is_possible {
+            return Err(self.refuse_step(current, step));
+        }
+        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
+        // does for steps whose inverse is no number.
+        let stands_still = target - now < f64::MIN_POSITIVE;
+        Ok(if stands_still { now } else { target })
+    }
+
+    fn is_beyond_stop(&self, target: f64) -> bool {
+        self.stop_time.is_some_and(|stop| target > stop + tolerance(stop))
+    }
+
+    #[cold]
+    fn refuse_step(&self, current: f64, step: f64) -> Refusal {
+        let (mut problems, now, target) = (Vec::new(), self.run.time(), current + step);
+        if !begins_at(current, now) {
             let expected = format!("expected {now} within {:e}", tolerance(now));
             problems.push(format!("currentCommunicationPoint = {}: {expected}", plain(current)));
         }
         if !(step.is_finite() && step > 0.0) {
             problems.push(format!("communicationStepSize = {}: expected a finite number > 0", plain(step)));
         }
-        let target = current + step;
-        if let Some(stop) = self.stop_time.filter(|stop| target > stop + tolerance(*stop)) {
+        if let Some(stop) = self.stop_time.filter(|_| self.is_beyond_stop(target)) {
             let expected = format!("expected at most stopTime = {}", plain(stop));
             problems.push(format!("currentCommunicationPoint + communicationStepSize = {}: {expected}", plain(target)));
         }
-        Refusal::unless_empty(problems)?;
-        if !is_time(target) {
-            return Err(Refusal::from(format!(
-                "the step leads to {} s: expected a time up to {MOST_TIME:e} s",
-                plain(target)
-            )));
+        if problems.is_empty() {
+            problems.push(format!("the step leads to {} s: expected a time up to {MOST_TIME:e} s", plain(target)));
         }
-        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
-        // does for steps whose inverse is no number.
-        let stands_still = target - now < f64::MIN_POSITIVE;
-        Ok(if stands_still { now } else { target })
+        Refusal { problems }
     }
 
     /// Whether inputs that are lines stay in their range up to a time, s: how far a line goes on is known only here.
@@ -217,6 +236,18 @@ impl Slave {
     pub fn last_successful_time(&self) -> f64 {
         self.run.time()
     }
+}
+
+/// By how much communication points may differ, s.
+#[inline]
+fn tolerance(time: f64) -> f64 {
+    TIME_TOLERANCE * time.abs().max(1.0)
+}
+
+/// Whether a step that is to begin at a time begins now, s; one that is no number does not.
+#[inline]
+fn begins_at(current: f64, now: f64) -> bool {
+    (current - now).abs() <= tolerance(now)
 }
 
 fn describe_collapse(Collapse { side, storey, time, .. }: &Collapse) -> String {

@@ -3,10 +3,11 @@
 use super::base_shear::BaseShear;
 use super::bodies::Body;
 use super::flight_modes::FlightModes;
+use super::floor_rows::FloorRows;
 use super::floors::Floors;
 use super::form::Form;
-use super::lane_matrix::{LaneMatrix, block_of_all};
-use super::lanes::{LANES, Lane, dot};
+use super::lane_matrix::LaneMatrix;
+use super::lanes::{LANES, dot};
 use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use super::motion::{LinearLoad, Motion};
@@ -53,6 +54,8 @@ pub struct Structure {
     /// From modes to floors and back, for each body.
     to_floors: Vec<LaneMatrix>,
     to_modes: Vec<LaneMatrix>,
+    /// From modes to single floors.
+    floor_rows: FloorRows,
     /// For each floor number of a body the shapes of all modes there; empty unless forces act on floors.
     pub(super) floor_shapes: Vec<f64>,
 }
@@ -135,6 +138,7 @@ impl Structure {
             flight: None,
             to_floors: bodies.iter().map(to_floors).collect(),
             to_modes: bodies.iter().map(to_modes).collect(),
+            floor_rows: FloorRows::of(&bodies, lanes),
             floors,
             floor_shapes: Vec::new(),
             body_of,
@@ -254,11 +258,10 @@ impl Structure {
             .any(|coupling| (coupling.offset..coupling.offset + coupling.matrix.nrows()).contains(&mode))
     }
 
-    /// The motions of a block of floors from as many modal vectors of displacements, velocities ...: lane by lane as in a
-    /// vector of all floors.
+    /// The motion of one lane of a vector of all floors from a modal one of displacements, velocities ...
     #[inline]
-    pub fn at_floors<const N: usize>(&self, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
-        block_of_all(&self.to_floors, block, modal)
+    pub fn at_floor(&self, lane: usize, modal: &[f64]) -> f64 {
+        self.floor_rows.at(lane, modal)
     }
 
     /// Adds the modal vector of displacements or velocities of one building's floors: shape' M u.

@@ -41,6 +41,7 @@ mod first_mode;
 mod flight_modes;
 mod flight_work;
 mod floor_forces;
+mod floor_rows;
 mod floors;
 mod form;
 mod impulse_response;

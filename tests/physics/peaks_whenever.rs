@@ -52,3 +52,23 @@ fn of_two_runs_in_turn() {
         run.state = first;
     }
 }
+
+/// Who reads them at each step is told for how long none can rise; who has read nothing before sees the same.
+#[test]
+fn at_each_step_and_for_the_first_time() {
+    let contact = "[[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.02\nlaw = \"hertz\"\nstiffness = 1e9\n";
+    for contact in ["", contact] {
+        let scene = scene(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), contact));
+        let mut run = Run::new(&scene, Some(&shaking()));
+        for k in 1..=2800 {
+            let known = bits(run.to(0.005 * f64::from(k)));
+            if k % 7 == 0 {
+                let before = std::mem::take(&mut run.point);
+                run.model.observe(&run.state, &mut run.point);
+                assert!(known == bits(&run), "{contact:?}, step {k}");
+                run.point = before;
+            }
+        }
+        assert_eq!(run.state.counters().events > 10, !contact.is_empty());
+    }
+}

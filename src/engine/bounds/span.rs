@@ -121,7 +121,7 @@ impl<const N: usize> Span<N> {
         sizes: &[ModeSizes],
         out: &mut [Lane],
     ) {
-        bound_blocks((blocks, rest), sizes, out);
+        bound_blocks((blocks, Some(rest)), sizes, out);
         for (block, out) in blocks.iter().zip(out).filter(|_| self.is_pushed) {
             if let Some(pushed) = &block.pushed {
                 let [starts, ends] = self.pushes(flights, pushed);
@@ -202,11 +202,12 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
     }
 }
 
-/// Upper bounds on the magnitudes of the quantities of some blocks: the sums of |A| times the bounds on the modes.
+/// Upper bounds on the magnitudes of the quantities of some blocks: the sums of |A| times the bounds on the modes, about their
+/// values at rest, if these are not 0.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bound_blocks((blocks, rest): (&[SpanBlock], &[Lane]), sizes: &[ModeSizes], out: &mut [Lane]) {
-    for ((SpanBlock { rows, .. }, at_rest), out) in blocks.iter().zip(rest).zip(out) {
-        let mut sum = at_rest.map(f64::abs);
+pub fn bound_blocks((blocks, rest): (&[SpanBlock], Option<&[Lane]>), sizes: &[ModeSizes], out: &mut [Lane]) {
+    for (b, (SpanBlock { rows, .. }, out)) in blocks.iter().zip(out).enumerate() {
+        let mut sum = rest.map_or([0.0; LANES], |rest| rest[b].map(f64::abs));
         for (kind, row) in rows.iter().enumerate() {
             for (rows, sizes) in row.as_chunks::<LANES>().0.iter().zip(sizes) {
                 for (row, most) in rows.iter().zip(sizes.most[kind]) {

@@ -7,6 +7,7 @@ use crate::engine::output::outputs::EnergyPoint;
 use crate::engine::output::point::Observed;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::sum::Sum;
+use crate::structure::Motion;
 
 impl Instant<'_> {
     /// The energy account; `None` where the scene keeps none.
@@ -44,7 +45,8 @@ impl Instant<'_> {
         shown.extend(dashpots);
         work.dashpot_sums = sums;
         let soil = self.model.soil_springs().map(|spring| shown[spring]).sum();
-        let [kinetic, strain, gravity] = system.energies((point.coordinates, &point.elements), &point.q, &point.v);
+        let Motion { q, v } = self.motion();
+        let [kinetic, strain, gravity] = system.energies((point.coordinates, &point.elements), q, v);
         let hysteretic = system.hysteretic_energy(&point.elements);
         let contacts = 0..system.pairs.len();
         let impact = contacts.map(|p| self.contact(p).dissipated_energy).sum();

@@ -10,6 +10,7 @@ use crate::engine::output::point_rates::PointRates;
 use crate::engine::output::yielding::flow;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::yielding::element::Element;
+use crate::structure::Motion;
 
 impl Instant<'_> {
     /// The rates of the energy account at a point, once all other rates are known; `None` without an account.
@@ -21,7 +22,7 @@ impl Instant<'_> {
         let Instant { model: Model { system, .. }, state, point } = *self;
         state.base.energy?;
         let coordinates = point.coordinates;
-        let (u, v) = (&point.q[..], &point.v[..]);
+        let Motion { q: u, v } = self.motion();
         let (a, jerk) = rates.motion();
         let inner = |x: &[f64], y: &[f64]| self.inner(x, y);
         let Buffers { load, slope, node_q: rest, node_v: force, .. } = work;

@@ -7,15 +7,17 @@ use crate::engine::output::point_rates::PointRates;
 use crate::engine::output::yielding::flow;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::yielding::element::Element;
+use crate::structure::Motion;
 
 impl<'a> Instant<'a> {
     /// A quantity of a link, counted from 0.
     pub(super) fn link(&self, l: usize, of: LinkOutput) -> f64 {
         let (system, point) = (&self.model.system, self.point);
-        let rate = system.link_closing(l, &point.v);
+        let Motion { q, v } = self.motion();
+        let rate = system.link_closing(l, v);
         let closing = || {
             let at_rest = if point.elements.is_empty() { 0.0 } else { system.link_closing_of_floors(l, &point.rest) };
-            system.link_closing(l, &point.q) + at_rest
+            system.link_closing(l, q) + at_rest
         };
         let of_slip =
             |value: fn(&Element, &ElementState) -> f64| self.slip_of(l).map_or(0.0, |(of, element)| value(of, element));
@@ -60,7 +62,7 @@ impl<'a> Instant<'a> {
     pub(super) fn link_rates(&self, rates: &PointRates, l: usize, of: LinkOutput) -> Rates {
         let (system, point) = (&self.model.system, self.point);
         let [velocity, acceleration, jerk] =
-            [&point.v, &rates.acceleration, &rates.jerk].map(|motion| system.link_closing(l, motion));
+            [self.motion().v, &rates.acceleration, &rates.jerk].map(|motion| system.link_closing(l, motion));
         let jerk = if rates.is_beginning { 0.0 } else { jerk };
         let link = &system.structure.links[l];
         let stiffness = link.stiffness - system.stiffness_lost_by_link(&point.elements, l);

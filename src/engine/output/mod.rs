@@ -40,17 +40,32 @@ impl Model {
             self.make_room(point);
         }
         point.floors.forget();
-        point.time = state.time;
-        point.coordinates = state.base.coordinates;
-        point.impacts = state.base.impacts;
-        let State { base, step, inputs, .. } = state;
+        let State { time, base, step, inputs, .. } = state;
+        (point.time, point.coordinates, point.impacts) = (*time, base.coordinates, base.impacts);
         point.ground_acceleration = match &self.system.ground {
-            Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
-            None => inputs.ground_acceleration.at(state.time),
+            Some(_) => base.segment.acceleration_at(time - base.segment.start),
+            None => inputs.ground_acceleration.at(*time),
         };
-        let elapsed = state.since_base();
+        let (elapsed, is_flight) = (state.since_base(), step.is_flight());
+        point.is_at_base = elapsed == 0.0 && !base.oscillates;
+        if !(point.is_at_base && is_flight && base.elements.is_empty()) {
+            self.note_motion(state, elapsed, point);
+        }
+        if !is_flight || self.system.is_pushed {
+            self.read_load(state, point);
+        }
+        self.observed(state, point)
+    }
+
+    /// Works out the motion, the storeys and the closed contacts.
+    #[inline(never)]
+    fn note_motion(&self, state: &State, elapsed: f64, point: &mut Point) {
+        let State { base, step, inputs, .. } = state;
         let mut work = self.take_buffers(point);
-        step.evaluate(&self.system, (base, inputs), elapsed, &mut work, MotionMut { q: &mut point.q, v: &mut point.v });
+        if !point.is_at_base {
+            let (q, v) = (&mut point.q, &mut point.v);
+            step.evaluate(&self.system, (base, inputs), elapsed, &mut work, MotionMut { q, v });
+        }
         if let (true, Some(oscillators)) = (base.oscillates, self.system.structure.oscillators()) {
             let Point { q, v, oscillating, .. } = &mut *point;
             let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
@@ -60,15 +75,10 @@ impl Model {
         }
         self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.
-        let is_flight = step.is_flight();
-        if !is_flight {
+        if !step.is_flight() {
             Instant { model: self, state, point }.note_contacts(elapsed, &mut work);
         }
-        if !is_flight || self.system.is_pushed {
-            self.read_load(state, point);
-        }
         point.work.replace(Some(work));
-        self.observed(state, point)
     }
 
     /// Works out the storeys, and makes the motion that relative to their position of rest.
@@ -165,7 +175,7 @@ impl Instant<'_> {
     fn note_contact_apart(&self, p: usize) -> ContactPoint {
         let Instant { model: Model { system, .. }, state, point } = *self;
         let pair = &system.pairs[p];
-        let penetration = pair.relative(point.coordinates, &point.q) - pair.gap_at(&point.rest);
+        let penetration = pair.relative(point.coordinates, self.motion().q) - pair.gap_at(&point.rest);
         let shown = self.show(&state.base.contacts[p], penetration);
         point.note_contact(p, shown);
         shown

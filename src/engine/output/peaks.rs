@@ -11,7 +11,7 @@ use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::structure::{Motion, MotionMut};
+use crate::structure::{LANES, Motion, MotionMut};
 
 impl Point {
     /// Number of motions within flights that have been worked out for peaks.
@@ -34,7 +34,8 @@ impl Instant<'_> {
         }
         let place = model.watched.rows.place(of);
         let mut known = point.peaks.borrow_mut();
-        if known.observation != point.floors.observation {
+        let is_read = known.observation == point.floors.observation;
+        if !is_read && !known.clearance.holds(model.peaks(), state, place / LANES) {
             known.observation = point.floors.observation;
             model.read_peaks(state, point, &mut known);
         }
@@ -70,6 +71,7 @@ impl Model {
             _ => self.read_peaks_of_flight(state, (point, elapsed), peaks, work),
         }
         known.work = Some(room);
+        known.clearance.look(self.peaks(), state, &known.peaks);
     }
 
     /// Raises a copy of the base's peaks over the logged flights, of which it may have some already.

@@ -21,9 +21,11 @@ pub struct Point {
     pub(in crate::engine) model: u64,
     /// The coordinates of the following vectors.
     pub(in crate::engine) coordinates: Coordinates,
-    /// Displacements relative to the position of rest, of which `floors` is made.
+    /// The motion is that of the base; otherwise it is that of the following vectors.
+    pub(in crate::engine) is_at_base: bool,
+    /// Displacements relative to the position of rest.
     pub(in crate::engine) q: Vec<f64>,
-    /// Velocities, of which `floors` is made.
+    /// Velocities.
     pub(in crate::engine) v: Vec<f64>,
     /// The same motion as that of oscillators, where these move at that time.
     pub(in crate::engine) oscillating: Option<[Vec<f64>; 2]>,

@@ -65,7 +65,7 @@ impl Instant<'_> {
             let penetration = match contact.phase {
                 ContactPhase::Held if self.contact(p).force > 0.0 => [0.0; 2],
                 ContactPhase::Held => [0.0, relative(&rates.acceleration)],
-                ContactPhase::Apart => [relative(&point.v), relative(&rates.acceleration)],
+                ContactPhase::Apart => [relative(self.motion().v), relative(&rates.acceleration)],
                 ContactPhase::Engaged | ContactPhase::Slack => [contact.rate, relative(&rates.acceleration)],
             };
             let enters = contact.phase == ContactPhase::Apart && contact.at_surface && contact.rate > 0.0;
@@ -98,7 +98,7 @@ impl Instant<'_> {
         let PointRates { contacts, acceleration, jerk, snap, resisted, forces, ground_acceleration, .. } = rates;
         let Buffers { load, rigid, .. } = work;
         let resisted = &mut resisted[order];
-        let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
+        let motion = if order == 0 { (self.motion().v, &acceleration[..]) } else { (&acceleration[..], &jerk[..]) };
         system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
         system.yield_to(coordinates, &point.elements, motion.0, resisted);
         if rates.is_beginning {
@@ -130,17 +130,17 @@ impl Instant<'_> {
 
     /// Rates of the displacement of a lane relative to the ground, m/s and m/s2.
     pub(super) fn displacement_rates(&self, rates: &PointRates, lane: usize) -> Rates {
-        self.at_lane(lane, [&self.point.v, &rates.acceleration])
+        [self.motion().v, &rates.acceleration].map(|motion| self.at_lane(lane, motion))
     }
 
     /// Rates of the velocity of a lane relative to the ground, m/s2 and m/s3.
     pub(super) fn velocity_rates(&self, rates: &PointRates, lane: usize) -> Rates {
-        self.at_lane(lane, [&rates.acceleration, &rates.jerk])
+        [&rates.acceleration, &rates.jerk].map(|motion| self.at_lane(lane, motion))
     }
 
     /// Rates of the absolute acceleration of a lane, m/s3 and m/s4.
     pub(super) fn acceleration_rates(&self, rates: &PointRates, lane: usize) -> Rates {
-        let [jerk, snap] = self.at_lane(lane, [&rates.jerk, &rates.snap]);
+        let [jerk, snap] = [&rates.jerk, &rates.snap].map(|motion| self.at_lane(lane, motion));
         [jerk + rates.ground_acceleration[0], snap]
     }
 
@@ -150,7 +150,7 @@ impl Instant<'_> {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
         let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.elements, side, motion);
         let [first, second] = match point.coordinates {
-            Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
+            Coordinates::Modes => [(self.motion().v, &acceleration[..]), (acceleration, jerk)]
                 .map(|(motion, rate)| system.structure.base_shear(side, motion, rate) - yielded(motion)),
             Coordinates::Floors => {
                 [0, 1].map(|order| system.structure.floors.base_shear(side as usize, &resisted[order]))

@@ -28,7 +28,7 @@ impl<'a> Instant<'a> {
         let (now, point) = (present.0, self.point);
         let largest_drift = || storey.largest_drift(now, self.peak(PeakOf::Drift(place.0, place.1)));
         match of {
-            YieldingOf::Shear => storey.shear(present, storey.drift(point.coordinates, &point.q)),
+            YieldingOf::Shear => storey.shear(present, storey.drift(point.coordinates, self.motion().q)),
             YieldingOf::PlasticDrift => now.plastic,
             YieldingOf::ResidualDrift => storey.residual_drift(now, &point.elements),
             YieldingOf::Ductility => largest_drift() / storey.limit,
@@ -60,7 +60,7 @@ impl<'a> Instant<'a> {
             let factor = if of == YieldingOf::Shear { self.elastic_stiffness(place) } else { 0.0 };
             return self.drift_rates(rates, place).map(|rate| factor * rate);
         };
-        let motions = [&self.point.v, &rates.acceleration];
+        let motions = [self.motion().v, &rates.acceleration];
         let drift = motions.map(|motion| storey.drift(self.point.coordinates, motion));
         let flow = flow(now);
         let factor = match of {
@@ -99,7 +99,7 @@ impl<'a> Instant<'a> {
         let (storey, (now, _)) = self.yielding_storey(place).filter(|(_, (now, _))| now.furthest > 0.0)?;
         let sign = if is_furthest(now) { flow(now) } else { 0.0 };
         let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(self.point.coordinates, motion);
-        Some([rate(&self.point.v), rate(&rates.acceleration)])
+        Some([rate(self.motion().v), rate(&rates.acceleration)])
     }
 
     /// Rates of the plastic drifts of all elements, from those of the motion.

@@ -70,6 +70,7 @@ pub(in crate::fmi) use refused;
 ///
 /// # Safety
 /// `component` is null or a live one that no other thread uses.
+#[inline(always)]
 pub(in crate::fmi) unsafe fn with_instance<T: Into<Status>>(
     component: Component,
     function: Function,
@@ -108,6 +109,7 @@ pub(in crate::fmi) unsafe fn refuse(component: Component, function: Function, re
 
 /// # Safety
 /// As for [`with_instance`].
+#[inline(always)]
 unsafe fn fenced<T: Into<Status>>(
     component: Component,
     function: Function,
@@ -128,6 +130,7 @@ unsafe fn fenced<T: Into<Status>>(
     status as c_int
 }
 
+#[inline(always)]
 fn run<T: Into<Status>>(
     instance: &mut Instance,
     function: Function,

@@ -27,6 +27,7 @@ impl<P> Pairs<P> {
     ///
     /// # Safety
     /// As `fmi/mod.rs` says, with as many elements in both arrays as they are counted.
+    #[inline(always)]
     unsafe fn references<'a>(&self, instance: &Instance) -> Result<(&'a [ValueReference], &'static str), Refusal> {
         let (of_vr, of_values) = match instance.slave.version() {
             FmiVersion::V2 => ("vr", "value"),
@@ -43,6 +44,7 @@ impl<T> Pairs<*mut T> {
     ///
     /// # Safety
     /// As for [`Pairs::references`].
+    #[inline(always)]
     pub(super) unsafe fn out<'a>(
         &self,
         instance: &Instance,
@@ -69,6 +71,28 @@ pub(in crate::fmi) unsafe fn get<T>(
     let (vr, values) = unsafe { pairs.out(instance) }?;
     instance.slave.get(vr, wanted, |i, value| {
         values[i].write(pick(value)?);
+        Some(())
+    })
+}
+
+/// Values of the type that is called so in its version.
+///
+/// # Safety
+/// As for [`Pairs::references`].
+#[inline(always)]
+pub(in crate::fmi) unsafe fn get_reals(
+    instance: &mut Instance,
+    pairs: Pairs<*mut f64>,
+    wanted: &str,
+) -> Result<(), Refusal> {
+    // SAFETY: the caller's promise.
+    let (vr, values) = unsafe { pairs.out(instance) }?;
+    let read = instance.slave.read_outputs(vr, values);
+    if read == vr.len() {
+        return Ok(());
+    }
+    instance.slave.get(&vr[read..], wanted, |i, value| {
+        values[read + i].write(value.real()?);
         Some(())
     })
 }

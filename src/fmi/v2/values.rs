@@ -3,13 +3,13 @@
 use super::types::Boolean;
 use crate::fmi::common::fence::functions;
 use crate::fmi::common::types::{Text, ValueReference};
-use crate::fmi::common::values::{Pairs, get, get_strings, set, set_strings};
+use crate::fmi::common::values::{Pairs, get, get_reals, get_strings, set, set_strings};
 use crate::variables::Value;
 use std::ffi::c_int;
 
 functions! { v2:
     fmi2GetReal = GetReal(vr: *const ValueReference, n: usize, values: *mut f64) |instance| {
-        get(instance, Pairs::new(vr, n, values), "Real", |value| value.real())
+        get_reals(instance, Pairs::new(vr, n, values), "Real")
     };
     fmi2GetInteger = GetInteger(vr: *const ValueReference, n: usize, values: *mut c_int) |instance| {
         get(instance, Pairs::new(vr, n, values), "Integer", |value| value.integer())

@@ -3,12 +3,12 @@
 use super::types::Boolean;
 use crate::fmi::common::fence::functions;
 use crate::fmi::common::types::{Text, ValueReference};
-use crate::fmi::common::values::{Pairs, get, get_strings, set, set_strings};
+use crate::fmi::common::values::{Pairs, get, get_reals, get_strings, set, set_strings};
 use crate::variables::Value;
 
 functions! { v3:
     fmi3GetFloat64 = GetReal(vr: *const ValueReference, n: usize, values: *mut f64, n_values: usize) |instance| {
-        get(instance, Pairs { vr, n, values, n_values }, "Float64", |value| value.real())
+        get_reals(instance, Pairs { vr, n, values, n_values }, "Float64")
     };
     fmi3GetInt32 = GetInteger(vr: *const ValueReference, n: usize, values: *mut i32, n_values: usize) |instance| {
         get(instance, Pairs { vr, n, values, n_values }, "Int32", |value| value.integer())
