@@ -184,7 +184,7 @@ impl Workspace {
         let log = if model.peaks().logs_flights() { FlightLog::new(lanes, floors) } else { FlightLog::new(0, 0) };
         Workspace {
             buffers: model.buffers(),
-            look: Look::new(lanes, model.system.limits()),
+            look: Look::new(lanes, model.system.count_limits()),
             windows: WindowWorkspace::new(if model.windows.is_ok() { pairs } else { 0 }),
             peaks: model.peaks().peak_room(log.capacity()),
             log,
