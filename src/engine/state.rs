@@ -187,7 +187,7 @@ impl Workspace {
         };
         Workspace {
             buffers: model.buffers(),
-            look: Look::new(lanes, model.system.limits()),
+            look: Look::new(lanes, model.system.count_limits()),
             windows: WindowWorkspace::new(if model.windows.is_ok() { pairs } else { 0 }),
             peaks: model.peaks().peak_room(log.capacity()),
             log,

@@ -8,13 +8,12 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
-use crate::engine::taylor::exact::plan_exact;
 use crate::engine::{onset, taylor};
 use crate::structure::LinearLoad;
 
 /// Where there are forces, the kinds of step that are tried one after the other, the most special one first. Where all are
 /// refused, power series in time take the step.
-const TRIED: [Kind; 3] = [Kind::Window, Kind::Onset, Kind::Exact];
+const TRIED: [Kind; 2] = [Kind::Window, Kind::Onset];
 
 impl Model {
     /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
@@ -83,8 +82,7 @@ impl Model {
             _ => Ok(()),
         };
         for kind in TRIED {
-            let is_possible = if kind == Kind::Exact { Ok(()) } else { only_power_laws };
-            match is_possible.and_then(|()| self.attempt(kind, at, horizon, step, work)) {
+            match only_power_laws.and_then(|()| self.attempt(kind, at, horizon, step, work)) {
                 Ok(()) => return kind,
                 Err(why) => at.counters.refuse(why),
             }
@@ -110,7 +108,7 @@ impl Model {
         }
     }
 
-    /// Plans a step of a kind, or says why it cannot be one.
+    /// Plans a window or an onset step, or says why it cannot be one.
     fn attempt(
         &self,
         kind: Kind,
@@ -132,14 +130,10 @@ impl Model {
                     (window, &mut taylor.series),
                     (room, buffers),
                 )?;
-                at.counters.law_evaluations += at.base.count_forces(Contact::branch);
             }
-            Kind::Onset => {
-                onset::plan(&self.system, at.base, horizon.remaining, planned, onset, buffers)?;
-                at.counters.law_evaluations += at.base.count_forces(Contact::branch);
-            }
-            _ => plan_exact(&self.system, at.base, horizon, planned, taylor, buffers)?,
+            _ => onset::plan(&self.system, at.base, horizon.remaining, planned, onset, buffers)?,
         }
+        at.counters.law_evaluations += at.base.count_forces(Contact::branch);
         Ok(())
     }
 

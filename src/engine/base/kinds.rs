@@ -82,13 +82,11 @@ pub enum Refusal {
     MixedEntries,
     /// No onset: other forces change the approach velocity before the law matters.
     WeakEntry,
-    /// No exact series: a contact is closed.
-    InContact,
 }
 
 impl Refusal {
     /// All of them.
-    pub const ALL: [Refusal; 20] = [
+    pub const ALL: [Refusal; 19] = [
         Refusal::SwitchedOff,
         Refusal::NearRigid,
         Refusal::Yielding,
@@ -108,6 +106,5 @@ impl Refusal {
         Refusal::NoEntry,
         Refusal::MixedEntries,
         Refusal::WeakEntry,
-        Refusal::InContact,
     ];
 }

@@ -29,8 +29,7 @@
 //! oscillation    quasi-static y + sum |row| R, R radius about it     one mode without damping, any t      n
 //! both ends      largest Bernstein coefficient of the cubic through  h w below 1; exact at the ends       2 n, and n
 //!                values and rates + h^4/384 max |y''''|                                                   for all rows
-//! horizon        c0 + x max(c1, 0) + |c2| x^2 + |c3| x^3 + ...       all terms have one sign              the floors
-//! ends of series as both ends, with max |y''''| by the row's terms   nearly always                        the terms
+//! terms          c0 + x max(c1, 0) + |c2| x^2 + |c3| x^3 + ...       all terms have one sign              the floors
 //! chord          the larger end + h^2/8 max |y''|; it does not turn  h w below 1; exact where y does not  the floors
 //!                if its ends differ by more than h^2/2 max |y''|     turn
 //! span           the largest end of some flights + a chord's bound   as a chord                           the modes
@@ -41,10 +40,9 @@
 //! together, push                         amplitude.rs      window/elastic.rs: no storey yields in a window
 //! oscillation                            oscillation.rs    system/limits.rs: for a flight or what is left of it
 //! the same, four rows at a time          envelope.rs       peaks/flight.rs, peaks/search.rs
-//! both ends                              certificate.rs    flight/mod.rs, flight/search.rs, yielding/element.rs
+//! both ends                              certificate.rs    flight/mod.rs, flight/search.rs
 //! the same, four rows at a time          cubic.rs          peaks/flight.rs
-//! horizon                                terms.rs          taylor/open_pairs.rs, taylor/switches.rs
-//! ends of series                         terms.rs          taylor/open_pairs.rs; with certificate.rs taylor/exact.rs
+//! terms                                  terms.rs          taylor/reached.rs
 //! chord                                  chord.rs          peaks/contact_bounds.rs: all floors over a step in contact;
 //!                                                          peaks/links.rs and peaks/search.rs on their own
 //! span                                   span.rs           peaks/fold.rs: many flights at once
@@ -61,8 +59,9 @@
 //! # Which one is asked when
 //!
 //! Apart: first the broad phase, which mostly needs one look for many segments. What it cannot exclude is tested by
-//! both ends of the flight, then by oscillation (however long the flight is), and is then searched piece by piece, again by both ends of each piece. In contact: horizon, both ends of the series, then the
-//! search for a root. Within a window of contact forces the second derivative is bounded instead
+//! both ends of the flight, then by oscillation (however long the flight is), and is then searched piece by piece, again by
+//! both ends of each piece. While forces act: terms, then the search for a root. Within a window of contact forces the second
+//! derivative is bounded instead
 //! (`window/certificate.rs`), and in a step just after an entry the terms of its double series
 //! (`onset/certificate.rs`): these know forces, not rows alone.
 //!

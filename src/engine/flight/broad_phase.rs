@@ -7,6 +7,7 @@ use crate::engine::base::element::Sense;
 use crate::engine::bounds::amplitude::{Ends, Gain, MARGIN, ModeRates, Seen, TRIED, Together};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::system::System;
+use crate::engine::system::limits::Limit;
 
 /// The coefficients of the bounds; constant during a run.
 #[derive(Debug)]
@@ -70,10 +71,11 @@ impl BroadPhase {
             return together;
         }
         let mut least = u64::MAX;
-        for ((of, present), gain) in system.elements_at(&base.elements).zip(&self.elements) {
+        for (i, ((of, present), gain)) in system.elements_at(&base.elements).zip(&self.elements).enumerate() {
             let seen = self.rates.see(of.in_flight(), base.motion(), amplitude);
+            let limit = Limit::of_element(i, of, present);
             for sense in Sense::BOTH {
-                let start = of.start_of_flight(present, sense, seen.moved) + MARGIN * (of.limit + size);
+                let start = limit.start(sense, || (seen.moved, seen.rate)).0 + MARGIN * (of.limit + size);
                 least = least.min(seen.longest(gain, (sense.sign(), start), ends));
             }
             if least == 0 {

@@ -11,13 +11,14 @@ pub mod workspace;
 use crate::engine::base::Base;
 use crate::engine::base::kinds::Kind;
 use crate::engine::base::planned::{At, Planned};
-use crate::engine::bounds::certificate::{Certificate, stays_below};
+use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::broad_phase::BroadPhase;
 use crate::engine::flight::search::Search;
 use crate::engine::flight::workspace::Look;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::system::limits::Limit;
 use crate::structure::{LinearLoad, Motion};
 
 /// Coefficients for the proofs that no pair meets and no element yields; constant during a run.
@@ -30,7 +31,7 @@ pub struct Flight {
 impl Flight {
     /// For the pairs and storeys of a system.
     pub fn new(system: &System) -> Flight {
-        let certificate = Certificate::of(&system.structure, system.limited_rows().map(FlightRow::sizes));
+        let certificate = Certificate::of(&system.structure, system.rows_with_limits().map(FlightRow::sizes));
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
@@ -70,7 +71,7 @@ impl Flight {
     ) -> Kind {
         planned.plan(longest, None, planned.reaches_limit, None);
         system.fly(at.base, longest, work, planned.motion_mut());
-        if system.limits() == 0 {
+        if system.count_limits() == 0 {
             return Kind::Cleared;
         }
         let watched = system.watched_segment(at.base);
@@ -106,28 +107,32 @@ impl Flight {
         let (h, loads) = (planned.length, LinearLoad { load: &work.load, slope: &work.slope });
         let (start, end) = (Motion { q: &base.q, v: &base.v }, Motion { q: &planned.q, v: &planned.v });
         let deviation = self.certificate.deviation(system.structure.in_flight(), start, loads, h, &mut work.scratch);
-        let is_cleared = |base: &Base, p: usize| segment.is_some_and(|segment| base.clearance.is_free(p, segment));
+        let is_cleared =
+            |base: &Base, place: usize| segment.is_some_and(|segment| base.clearance.is_free(place, segment));
         for (p, pair) in system.pairs.iter().enumerate() {
-            if is_cleared(base, p) {
-                planned.ends.push(None);
-                look.is_free[p] = true;
-                continue;
-            }
-            let (gap, contact) = (base.rest.gaps[p], &mut base.contacts[p]);
-            if !base.clearance.is_known(p) {
+            if !is_cleared(base, p) && !base.clearance.is_known(p) {
                 counters.pairs_evaluated += 1;
-                (contact.penetration, contact.rate) = pair.penetration(gap, start);
+                let contact = &mut base.contacts[p];
+                (contact.penetration, contact.rate) = pair.penetration(base.rest.gaps[p], start);
                 base.clearance.set_known(p);
             }
-            counters.pairs_evaluated += 1;
-            let to = pair.penetration(gap, end);
-            planned.ends.push(Some(to));
-            let from = (contact.flight_start(), contact.rate);
-            look.is_free[p] = !cfg!(without = "certificate") && stays_below(from, to, (h, deviation));
         }
-        let are_cleared = system.place_of_elements().is_some_and(|elements| is_cleared(base, elements));
-        for i in system.pairs.len()..system.limits() {
-            look.is_free[i] = are_cleared || system.stays_within(base, i, [start, end], (h, deviation));
+        let at = |limit: &Limit, motion: Motion| {
+            let row = limit.row.in_flight();
+            (row.value(motion), row.rate(motion))
+        };
+        for i in 0..system.count_limits() {
+            // All elements are cleared together, at the place after those of the pairs.
+            let is_cleared = is_cleared(base, i.min(system.pairs.len()));
+            let limit = system.limit(base, i);
+            let to = (!is_cleared).then(|| at(&limit, end));
+            if i < system.pairs.len() {
+                planned.ends.push(to.map(|(x, rate)| (x - base.rest.gaps[i], rate)));
+                counters.pairs_evaluated += u64::from(!is_cleared);
+            }
+            let from = |sense| limit.start(sense, || at(&limit, start));
+            let keeps_off = |to| limit.keeps_off(from, to, (h, deviation));
+            look.is_free[i] = to.is_none_or(|to| !cfg!(without = "certificate") && keeps_off(to));
         }
         look.is_free.iter().all(|is_free| *is_free)
     }

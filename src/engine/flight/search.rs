@@ -11,6 +11,7 @@ use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::system::limits::Expanded;
 use crate::numerics::polynomial::{ALL, MAX_ORDER};
 use crate::structure::{EXACT, LinearLoad, Motion, MotionMut, PIECE_ANGLE, flight_order};
 
@@ -100,23 +101,9 @@ impl Search<'_> {
         let Look { from, q, v, load, is_free, .. } = &*look;
         work.series.expand_flight(flying, Motion { q, v }, LinearLoad { load, slope: &work.slope }, (length, order));
         let mut first = First::up_to(1.0);
-        for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
-            if is_free[p] {
-                continue;
-            }
-            let terms = &mut work.scalar[..=work.series.order];
-            let mut noise = pair.noise(pair.in_flight().project(&work.series, &ALL, terms));
-            if *from == 0.0 {
-                noise = contact.begin_flight(terms, length, noise);
-            } else {
-                terms[0] -= base.rest.gaps[p];
-            }
-            first.search(terms, noise, Event::Entry(p));
-        }
-        let is_start = *from == 0.0;
-        for i in (0..system.elements.len()).filter(|i| !is_free[system.pairs.len() + i]) {
-            let expanded = ((&work.series, &ALL), None, is_start);
-            system.first_yield(base, i, expanded, &mut first);
+        let expanded = Expanded { series: &work.series, factors: &ALL, substitution: None, is_start: *from == 0.0 };
+        for i in (0..system.count_limits()).filter(|i| !is_free[*i]) {
+            system.limit(base, i).search(system, base, &expanded, &mut first);
         }
         first.found()
     }
@@ -128,9 +115,13 @@ impl Search<'_> {
         let deviation = certificate.deviation(system.structure.in_flight(), motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;
-        let ends = [look.motion(), Motion { q: &look.end_q, v: &look.end_v }];
-        let stays_within = |i: usize| look.is_free[i] || system.stays_within(base, i, ends, (length, deviation));
-        let all_stay_within = (0..system.limits()).all(stays_within);
+        let (from, to) = (look.motion(), Motion { q: &look.end_q, v: &look.end_v });
+        let all_stay_within = (0..system.count_limits()).all(|i| {
+            let limit = system.limit(base, i);
+            let row = limit.row.in_flight();
+            let at = |motion: Motion| (row.value(motion), row.rate(motion));
+            look.is_free[i] || limit.keeps_off(|sense| limit.later(sense, at(from)), at(to), (length, deviation))
+        });
         if all_stay_within {
             look.move_on(length, &work.slope);
         }

@@ -1,10 +1,8 @@
 //! Length of an onset step up to which no contact changes its state, proved by bounds on the sums of the series' terms.
 
+use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::element::Sense;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
-use crate::engine::pairs::row::WeightRow;
 use crate::engine::system::System;
 use crate::structure::sum_sizes;
 
@@ -31,51 +29,40 @@ impl System {
         })
     }
 
-    /// Whether all open pairs stay apart and all storeys elastic: by a bound on the displacement of each floor, or else
-    /// on the pair's own terms.
+    /// Whether all open pairs stay apart and all elements elastic: by a bound on the displacement of each floor, or else on the
+    /// own terms of what the limit is of.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
-        let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
-        if apart.peek().is_none() && self.elements.is_empty() {
+        let mut ahead = self.limits_ahead(base).peekable();
+        if ahead.peek().is_none() {
             return true;
         }
         let (powers, _) = onset.powers.all();
-        let beyond = &powers[2..];
+        let (x, beyond, coordinates) = (onset.powers.x, &powers[2..], base.coordinates);
         let sizes = &mut sizes[..onset.lanes];
         sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
-        let (x, coordinates) = (onset.powers.x, base.coordinates);
-        let are_elastic = self.elements_at(&base.elements).all(|(of, (_, centre))| {
-            let (drift, step_rate) = (of.drift(coordinates, &base.q), of.drift(coordinates, &base.v) * onset.scale);
-            let stays = |sense: Sense| {
-                let moved = x * (sense.sign() * step_rate).max(0.0) + of.row.difference(coordinates, sizes).1;
-                of.excess(centre, sense, drift) + moved < 0.0
+        ahead.all(|limit| {
+            let moving = || (limit.row.value(coordinates, &base.q), limit.row.value(coordinates, &base.v));
+            let stays = |moved: f64| {
+                limit.senses().iter().all(|sense| {
+                    let (start, rate) = limit.start(*sense, moving);
+                    let goes = x * onset.scale * rate;
+                    // What begins at its limit has to leave it.
+                    start + if start == 0.0 { goes } else { goes.max(0.0) } + moved < 0.0
+                })
             };
-            Sense::BOTH.into_iter().all(stays)
-        });
-        are_elastic
-            && apart.all(|(p, contact)| {
-                let WeightRow { modes, floors, .. } = &self.pairs[p].row;
-                let most = match base.coordinates {
-                    Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
-                    Coordinates::Modes => modes.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
-                };
-                let stays = |moved| contact.cannot_change(onset, moved, 0.0);
-                let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
-                stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
-            })
+            let own = |(power, n)| limit.row.value(coordinates, onset.term(n)).abs() * power;
+            stays(limit.row.difference(coordinates, sizes).1) || stays(beyond.iter().zip(2..).map(own).sum())
+        })
     }
 }
 
 impl Contact {
-    /// Whether an entry, a release or a change of branch is impossible up to the x of the powers of a step: beyond its terms of
+    /// Whether a release or a change of branch is impossible up to the x of the powers of a step: beyond its terms of
     /// power 0 and 1 the penetration changes by `moved` at most, m, and its derivative by x by `turned`, m.
     fn cannot_change(&self, onset: &OnsetSeries, moved: f64, turned: f64) -> bool {
         let (x, scale) = (onset.powers.x, onset.scale);
         let d = self.penetration;
         let step_rate = self.rate * scale;
-        if !self.in_contact() {
-            let d = if self.at_surface { 0.0 } else { d.min(0.0) };
-            return if d == 0.0 { step_rate * x + moved < 0.0 } else { d + x * step_rate.max(0.0) + moved < 0.0 };
-        }
         if d <= 0.0 {
             // A pair that enters now goes deeper, and so stays on the engaged side of every guard.
             return step_rate > turned;

@@ -16,11 +16,6 @@ pub(crate) trait ContactJacobian {
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
     /// Adds to the accelerations in `term` those by the pairs' forces, N, positive in compression.
     fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]);
-    /// Writes for each of many terms of a series the relative motions of the pairs to the array beside it.
-    #[inline(always)]
-    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
-        terms.for_each(|(term, out)| *out = self.relative(members, count, term));
-    }
 }
 
 /// The Jacobian where the motion is that of the floors: a row has a 1 and a -1, or the weights of up to three floors.
@@ -35,17 +30,6 @@ impl ContactJacobian for FloorJacobian {
         }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| relative(&members.floors[lane], term))
-    }
-
-    #[inline(always)]
-    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
-        match members.between {
-            // The test for adjacent blocks once for all terms.
-            Some([left, right]) => {
-                terms.for_each(|(term, out)| *out = each(|lane| term[left][lane] - term[right][lane]));
-            }
-            None => terms.for_each(|(term, out)| *out = self.relative(members, count, term)),
-        }
     }
 
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
@@ -85,16 +69,6 @@ impl ContactJacobian for ModalJacobian<'_> {
     #[inline(always)]
     fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         lane_by_lane(count, |lane| dot_blocks(self.row(members.pairs[lane]), term))
-    }
-
-    #[inline(always)]
-    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
-        // The rows once for all terms.
-        let mut rows = [&[][..]; PAIRS];
-        for (row, pair) in rows.iter_mut().zip(&members.pairs).take(count) {
-            *row = self.row(*pair);
-        }
-        terms.for_each(|(term, out)| *out = lane_by_lane(count, |lane| dot_blocks(rows[lane], term)));
     }
 
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {

@@ -78,11 +78,6 @@ impl PackedPairs {
         (self.pushes[0][lane], self.pushes[1][lane]) = (data.row.floors[0].push, data.row.floors[1].push);
     }
 
-    /// Number of lanes up to the last one that holds a pair.
-    pub(crate) fn count(&self) -> usize {
-        self.taken.iter().rposition(|taken| *taken).map_or(0, |lane| lane + 1)
-    }
-
     /// (lane, number of the pair) of each lane that holds a pair.
     pub(crate) fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
@@ -160,11 +155,6 @@ impl<B: Default> PackedBlocks<B> {
     #[inline(always)]
     pub(crate) fn all_mut(&mut self) -> (&mut [B], &[PackedPairs]) {
         (&mut self.blocks[..self.used], &self.members[..self.used])
-    }
-
-    /// The pairs in a block.
-    pub(crate) fn members(&self, b: usize) -> &PackedPairs {
-        &self.members[b]
     }
 
     /// A block by its number.

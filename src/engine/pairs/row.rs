@@ -121,6 +121,14 @@ impl WeightRow {
         sum
     }
 
+    /// The same of a motion as the base has it.
+    pub(crate) fn project_at(&self, base: &Base, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
+        match base.oscillates {
+            true => self.in_flight().project(series, factors, out),
+            false => self.project(base.coordinates, series, factors, out),
+        }
+    }
+
     /// Adds to accelerations those by a force along the row, N.
     #[inline(always)]
     pub(crate) fn push(&self, coordinates: Coordinates, force: f64, accelerations: &mut [f64]) {

@@ -7,7 +7,6 @@ pub mod limits;
 pub mod links;
 pub mod rest;
 pub mod tolerance;
-pub mod yields;
 
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;

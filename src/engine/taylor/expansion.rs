@@ -20,11 +20,12 @@ impl System {
         self.expand_to(base, solution, work, self.tolerance.order + 1);
     }
 
-    /// Expands a linear motion so that its series is exact up to `length`, s, its time unit.
-    pub fn expand_exactly(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, length: f64) {
+    /// Expands a linear motion so that its series is exact up to `length`, s, its time unit; returns its x there, 1.
+    pub fn expand_exactly(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, length: f64) -> f64 {
         self.start_series(base, solution, length);
         let order = flight_order(self.fastest * length, ROUNDING).unwrap_or(MAX_ORDER);
         self.expand_to(base, solution, work, order);
+        1.0
     }
 
     fn start_series(&self, base: &Base, solution: &mut Solution, scale: f64) {

@@ -12,12 +12,10 @@ pub mod assignment;
 pub mod closed_pairs;
 pub mod departures;
 pub mod drifts;
-pub mod entries;
-pub mod exact;
 pub mod expansion;
 pub mod follow;
-pub mod open_pairs;
 pub mod pair_forces;
+pub mod reached;
 pub mod solution;
 pub mod step_size;
 pub mod switches;
@@ -30,6 +28,9 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 
+/// (Fastest rate) x (time) that one exact series reaches.
+const EXACT_REACH: f64 = 2.0;
+
 /// Plans a step from the base, under the load in `work`; returns of which kind it is.
 pub fn plan(
     system: &System,
@@ -39,28 +40,43 @@ pub fn plan(
     solution: &mut Solution,
     work: &mut Buffers,
 ) -> Kind {
-    let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
-    let scale = system.series_scale(base, remaining);
-    system.expand(base, solution, work, scale);
-    let reach = system.reach(base, solution, work, (is_singular, remaining));
-    let is_whole = solution.series.x_at(remaining) <= reach;
-    let end = if is_whole { solution.series.x_at(remaining) } else { reach };
+    let is_exact = touching(base).next().is_none();
+    let reach = match is_exact {
+        true => system.expand_exactly(base, solution, work, remaining.min(EXACT_REACH / system.fastest)),
+        false => system.expand_accurately(base, solution, work, remaining),
+    };
+    let series = &solution.series;
+    let is_whole = series.x_at(remaining) <= reach;
+    let end = if is_whole { series.x_at(remaining) } else { reach };
+    // The scale of contact does not change while none is closed.
+    let next_length = (!is_exact).then(|| series.time(reach));
     let event = system.first_event(base, solution, work, end);
     solution.end.set_in_time(&solution.series.time_map);
     solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
     let reaches_limit = is_whole && !is_cut && event.is_none();
     let length = if reaches_limit { remaining } else { solution.series.time(solution.end.x) };
-    planned.plan(length, event, reaches_limit, Some(solution.series.time(reach)));
+    planned.plan(length, event, reaches_limit, next_length);
     system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
     for (reaction, &p) in solution.reactions.iter().zip(&system.rigid.pairs) {
         if base.contacts[p].is_held() {
             base.contacts[p].reaction = reaction[0];
         }
     }
-    if solution.series.time_map.curvature == 0.0 { Kind::Series } else { Kind::Mapped }
+    match solution.series.time_map.is_curved() {
+        _ if is_exact => Kind::Exact,
+        true => Kind::Mapped,
+        false => Kind::Series,
+    }
 }
 
 impl System {
+    /// Expands the motion and the forces of contacts; returns how far the series are accurate, in x.
+    fn expand_accurately(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, remaining: f64) -> f64 {
+        let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
+        self.expand(base, solution, work, self.series_scale(base, remaining));
+        self.reach(base, solution, work, (is_singular, remaining))
+    }
+
     /// How far the series are accurate, in x: with more powers where these are cheap, and in the x of a time map where
     /// it takes them further.
     fn reach(
@@ -86,7 +102,7 @@ impl System {
         solution.end_at(end);
         let mut first = First::up_to(end);
         // Only the last two need the motion; they are searched for only up to the first departure.
-        for look_for in [System::first_leaving, System::first_switch, System::first_entry] {
+        for look_for in [System::first_leaving, System::first_turning, System::first_reached] {
             look_for(self, base, solution, work, &mut first);
             if first.until < solution.end.x {
                 solution.end_at(first.until);

@@ -4,7 +4,6 @@ use crate::engine::base::Coordinates;
 use crate::engine::system::System;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::engine::taylor::drifts::YieldingDrifts;
-use crate::engine::taylor::open_pairs::OpenPairs;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
@@ -20,8 +19,6 @@ pub struct Solution {
     pub closed: ClosedPairs,
     /// Drifts of the elements that yield.
     pub drifts: YieldingDrifts,
-    /// Bounds on the penetrations of the open pairs.
-    pub open: OpenPairs,
     /// Terms of the reactions between floors that are held together, N, one series per rigid pair.
     pub reactions: Vec<Coefficients>,
     /// Highest power of these series.
@@ -39,7 +36,6 @@ impl Solution {
         Solution {
             closed: ClosedPairs::new(system.pairs.len(), on_floors),
             drifts: YieldingDrifts::new(system.elements.len()),
-            open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
             series: MotionSeries::new(system.structure.lanes, MAX_ORDER + 2),
             reaction_order: 0,

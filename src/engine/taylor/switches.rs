@@ -1,9 +1,8 @@
-//! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
+//! The instants at which elements that yield turn or collapse, while the motion is a power series.
 
 use crate::engine::base::element::{ElementState, Sense};
 use crate::engine::base::planned::{Event, First};
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::bounds::terms::Horizon;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
@@ -37,38 +36,17 @@ impl System {
         }
     }
 
-    /// Looks for the first instant up to the end of the step at which an element yields or turns.
-    pub fn first_switch(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
-        if self.elements.is_empty() {
-            return;
-        }
+    /// Looks for the first instant up to the end of the step at which an element that yields turns or collapses: at once where
+    /// rigid pairs hold it.
+    pub fn first_turning(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
         for &(i, sense) in &solution.drifts.yielding {
-            match self.holds_storey(i, &mut work.rigid) {
-                true => first.set(0.0, Event::Turn(i)),
-                false => self.first_change(base, solution, (i, sense), first),
-            }
-        }
-        let Solution { series, end, substitution, .. } = solution;
-        let horizon = Horizon::of(series, end.x, &mut work.node_q);
-        for (i, (of, (element, centre))) in self.elements_at(&base.elements).enumerate() {
-            let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
-            let wandered = of.row.difference(base.coordinates, horizon.wandered).1;
-            let stays_elastic =
-                |sense: Sense| horizon.is_beyond(of.excess(centre, sense, drift), sense.sign() * step, wandered);
-            let is_sure = element.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
-            if is_sure || self.holds_storey(i, &mut work.rigid) {
+            if self.holds_storey(i, &mut work.rigid) {
+                first.set(0.0, Event::Turn(i));
                 continue;
             }
-            end.set_in_time(&series.time_map);
-            let expanded = ((&*series, end.in_time().0), Some(&**substitution), true);
-            self.first_yield(base, i, expanded, first);
+            self.first_turn(base, solution, (i, sense), first);
+            self.first_collapse(base, solution, (i, sense), first);
         }
-    }
-
-    /// Looks for the first instant at which an element that yields turns or collapses.
-    pub fn first_change(&self, base: &Base, solution: &Solution, yielding: (usize, Sense), first: &mut First) {
-        self.first_turn(solution, yielding, first);
-        self.first_collapse(base, solution, yielding, first);
     }
 
     /// Looks for the first instant at which the drift of an element that yields is that of its collapse.
@@ -92,7 +70,7 @@ impl System {
 
     /// Looks for the first instant at which the drift of an element that yields turns: at once where it does not go on in its
     /// sense by more than rounding, as that of a floor that is held.
-    fn first_turn(&self, solution: &Solution, (i, sense): (usize, Sense), first: &mut First) {
+    fn first_turn(&self, base: &Base, solution: &Solution, (i, sense): (usize, Sense), first: &mut First) {
         let Solution { series, drifts, substitution, .. } = solution;
         let mut terms = [0.0; MAX_TERMS];
         let count = series.order;
@@ -100,15 +78,14 @@ impl System {
             terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
         }
         let [q, step] = [0, 1].map(|n| series.term(n));
-        let still =
-            STILL * self.size_of_rate(&self.elements[i], drifts.coordinates, Motion { q, v: step }, series.scale);
+        let of = &self.elements[i];
+        let still = STILL * self.size_of_rate(of, base.coordinates, Motion { q, v: step }, series.scale);
         if terms[0] >= -still {
             // What is rounding shall not decide.
             let mut drift = [0.0; MAX_TERMS];
-            self.elements[i].row.project(drifts.coordinates, series, &ALL, &mut drift);
+            of.row.project_at(base, series, &ALL, &mut drift);
             drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-            let size = self.elements[i].row.difference(drifts.coordinates, series.term(0)).1;
-            self.clear_curvature((self.structure.fastest, size), i, series, &mut drift);
+            self.clear_curvature(base, (&of.row, of.limit), series, &mut drift);
             let leading = drift[1..=count].iter().find(|term| **term != 0.0);
             if leading.is_none_or(|term| sense.sign() * term < 0.0) {
                 return first.set(0.0, Event::Turn(i));

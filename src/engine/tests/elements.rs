@@ -4,6 +4,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::element::ElementState;
 use crate::engine::system::System;
+use crate::engine::system::limits::Limit;
 use crate::engine::yielding::element::ElementOf;
 use crate::scene::{Link, Place, Scene, Side, Slip};
 use nalgebra::{DMatrix, DVector};
@@ -69,7 +70,8 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
         // At rest: x = 0.
         let shear = k * at_rest - lost * plastic[i];
         assert!((of.shear((element, centre), 0.0) - shear).abs() < 1e-9, "{i}: not {shear} N");
-        assert_eq!(of.noise(centre, 0.0), 2.0 * f64::EPSILON * (of.limit + centre.abs()));
+        let limit = Limit::of_element(i, of, (element, centre));
+        assert_eq!(limit.noise(0.0), 2.0 * f64::EPSILON * (of.limit + centre.abs()));
         assert_eq!(of.moved_share(centre), centre.abs() / of.limit);
         locked += 0.5 * lost * plastic[i] * plastic[i];
     }

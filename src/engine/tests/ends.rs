@@ -7,12 +7,14 @@ use super::motions::{
 };
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::kinds::Kind;
 use crate::engine::base::planned::{At, Event, First, Horizon, Planned};
 use crate::engine::bounds::certificate::Certificate;
+use crate::engine::bounds::terms::TermSizes;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
 use crate::engine::flight::workspace::Look;
-use crate::engine::taylor::exact::plan_exact;
+use crate::engine::taylor::plan;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::roots::{deviation, highest_of_cubic};
 use crate::structure::{LinearLoad, Motion};
@@ -104,7 +106,7 @@ fn both_ends_show_that_a_flight_is_free() {
         planned.length = h;
         [planned.q, planned.v] = motion[16].clone();
         let flight = Flight::new(system);
-        let mut look = Look::new(row.sizes.len(), 4);
+        let mut look = Look::new(row.sizes.len(), system.count_limits());
         let bound = threshold(now, |limit| {
             base.rest.gaps.fill(1e9);
             system.elements[0].limit = 1e9;
@@ -160,11 +162,11 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
             system.load(&base, &inputs, &mut work.load, &mut work.slope);
             if is_flight {
                 let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
-                let mut look = Look::new(row.sizes.len(), 4);
+                let mut look = Look::new(row.sizes.len(), system.count_limits());
                 Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
             } else {
                 let (horizon, solution) = (Horizon { remaining: time, is_cut: false }, &mut Solution::new(system));
-                assert!(plan_exact(system, &base, horizon, &mut planned, solution, work).is_ok());
+                assert_eq!(plan(system, &mut base, horizon, &mut planned, solution, work), Kind::Exact);
             }
             !matches!(planned.event, Some(Event::Entry(_) | Event::Yield(..)))
         });
@@ -203,14 +205,9 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
             let mut solution = Solution::new(system);
             system.expand_exactly(&base, &mut solution, work, time);
             solution.end_at(1.0);
-            let Solution { open, series, end, substitution, .. } = &mut solution;
-            open.assign(&system.pairs, base.coordinates);
-            open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
-            let (followed, x) = (open.apart.iter().zip(&open.bounds), end.x);
-            let mut lanes = followed.flat_map(|(block, bounds)| {
-                open.packed.members(*block).lanes().map(move |(lane, pair)| (pair, bounds.stays_apart(x)[lane]))
-            });
-            lanes.find(|(pair, _)| *pair == p).is_none_or(|(_, stays_apart)| stays_apart)
+            let sizes = TermSizes::of(&solution.series, 1.0, &mut work.node_q);
+            let limit = system.limit(&base, p);
+            limit.is_excluded_by(&sizes, base.coordinates, &solution.series)
         });
         let comparison = if case.is_on_floors() { &mut floors } else { &mut modes };
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {time:e} s");
@@ -226,7 +223,7 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
 #[test]
 fn terms_bound_fourth_derivatives_and_drifts() {
     let mut random = Random(11);
-    let (mut sizes, mut own) = (Comparison::of("fourth derivatives by sizes"), Comparison::of("by own terms"));
+    let mut sizes = Comparison::of("fourth derivatives by sizes");
     let mut switches = Comparison::of("switches");
     for _ in 0..400 {
         let (storeys, frequencies) = any_system(&mut random);
@@ -249,19 +246,12 @@ fn terms_bound_fourth_derivatives_and_drifts() {
         let fourth = system.pairs[0].row.difference(base.coordinates, &work.node_q).1;
         let what = || format!("{start:?}, {storeys:?} storeys, {damping:?}, {time:e} s");
         sizes.note(off, deviation(time, fourth), rounding, &what);
-        let Solution { open, series, end, substitution, .. } = &mut solution;
-        open.assign(&system.pairs, base.coordinates);
-        open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
-        for (block, bounds) in open.apart.iter().zip(&open.bounds) {
-            let lane = open.packed.members(*block).lanes().find(|(_, pair)| *pair == 0);
-            lane.iter().for_each(|(lane, _)| own.note(off, deviation(1.0, bounds.fourth[*lane]), rounding, &what));
-        }
         let row = case.rows()[3].clone();
         let Case { system, work, .. } = &mut case;
         let bound = threshold(row.value(&motion[0][0], &motion[0][1]).abs(), |limit| {
             limit_storey(system, limit);
             let mut first = First::up_to(solution.end.x);
-            system.first_switch(&base, &mut solution, work, &mut first);
+            system.first_reached(&base, &mut solution, work, &mut first);
             first.event.is_none()
         });
         let reached = largest(course(&row, &motion).map(f64::abs));
@@ -270,6 +260,5 @@ fn terms_bound_fourth_derivatives_and_drifts() {
         assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "{bound:e}, {reached:e}: {}", what());
     }
     sizes.comes_within(0.99);
-    own.comes_within(0.99);
     switches.comes_within(0.9999);
 }

@@ -183,7 +183,7 @@ impl Case {
 
     /// The rows of all pairs, and that of the storey.
     pub fn rows(&self) -> Vec<Row> {
-        let rows = self.system.limited_rows().map(|row| {
+        let rows = self.system.rows_with_limits().map(|row| {
             let entries = |part: usize| (0..self.system.structure.lanes).map(|m| row.entries(m)[part]).collect();
             let (of_q, of_v): (Vec<f64>, Vec<f64>) = (entries(0), entries(1));
             let Structure { omega2, damping, .. } = self.system.structure.in_flight();

@@ -6,7 +6,6 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::element::{ElementState, Sense};
-use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::yielding::lift::Lift;
@@ -194,37 +193,9 @@ impl Element {
         sense.sign() * (x - centre) - self.limit
     }
 
-    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above
-    /// 0.
-    pub(crate) fn start_of_flight(&self, (element, centre): Present, sense: Sense, x: f64) -> f64 {
-        if element.turned == Some(sense) { 0.0 } else { self.excess(centre, sense, x).min(0.0) }
-    }
-
-    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by
-    /// at most `deviation` from the cubic through them.
-    pub(crate) fn stays_elastic(
-        &self,
-        present: Present,
-        (start, rate): (f64, f64),
-        (end, end_rate): (f64, f64),
-        (h, deviation): (f64, f64),
-    ) -> bool {
-        Sense::BOTH.into_iter().all(|sense| {
-            let sign = sense.sign();
-            let from = (self.start_of_flight(present, sense, start), sign * rate);
-            let to = (self.excess(present.1, sense, end), sign * end_rate);
-            stays_below(from, to, (h, deviation))
-        })
-    }
-
     /// The share of the yield drift by which plastic drifts have moved the limits.
     pub(crate) fn moved_share(&self, centre: f64) -> f64 {
         centre.abs() / self.limit
-    }
-
-    /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
-    pub(crate) fn noise(&self, centre: f64, size: f64) -> f64 {
-        2.0 * f64::EPSILON * (size + self.limit + centre.abs())
     }
 
     /// Storey shear, N, what the columns resist with, at a drift x relative to the position of rest; while it yields,
