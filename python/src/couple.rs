@@ -1,6 +1,7 @@
 //! A run with buildings of other programs, which Python reaches.
 
 use crate::scene::{Scene, refusal};
+use crate::threads::caught;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pounding::scene::Side;
 use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as run, stiffness_of};
@@ -45,8 +46,8 @@ pub fn couple(
         };
         Outside { side: side(is_right), forces: Box::new(forces) }
     });
-    let coupled = run(&model, &scenario.settings.scene, outside.collect(), how, (step, stop));
-    let coupled = coupled.map_err(|failure| raised(py, failure))?;
+    let whole = || run(&model, &scenario.settings.scene, outside.collect(), how, (step, stop));
+    let coupled = caught(whole).map_err(PyRuntimeError::new_err)?.map_err(|failure| raised(py, failure))?;
     let slips = coupled.stiffer.iter().map(slip).collect();
     Ok((Scene(scenario.with_corrections(coupled.corrections)), slips))
 }
@@ -98,7 +99,7 @@ fn raised(py: Python<'_>, failure: Failure<PyErr>) -> PyErr {
 }
 
 fn slip(stiffer: &Stiffer) -> String {
-    let &Stiffer { side, storey, time, ratio, steps } = stiffer;
+    let &Stiffer { side, storey, time, ratio, steps, moved: _ } = stiffer;
     let of = storey.map_or_else(String::new, |storey| format!(", storey {storey}"));
     format!(
         "{side}{of}: the model was up to {ratio:.3} times as stiff as its initial_stiffness(), in {steps} steps, first at {time} s: \

@@ -20,7 +20,7 @@ use pounding::scene::{Scene, Stiffness};
 const STIFFER: f64 = 1.01;
 /// Of the largest stiffness of a matrix: differences of forces leave as much.
 const ROUNDING: f64 = 1e-6;
-/// Of the largest drift or displacement so far: over a smaller move the change of the forces is rounding.
+/// Of the largest drift or displacement: over a smaller move the change of the forces is rounding.
 const LEAST_MOVE: f64 = 1e-3;
 
 /// What corrections do within a step.
@@ -34,13 +34,16 @@ pub enum How {
     Twice,
 }
 
+/// The forces, N, that hold the floors of a building at these displacements relative to their base, m: of all floors, lowest first.
+/// What is asked has happened.
+pub type Answer<'a, E> = Box<dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a>;
+
 /// A building that another program has.
 pub struct Outside<'a, E> {
     /// Which one.
     pub side: Side,
-    /// The forces, N, that hold its floors at these displacements relative to their base, m: of all floors, lowest first. What it
-    /// is asked has happened.
-    pub forces: Box<dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a>,
+    /// What it answers with.
+    pub forces: Answer<'a, E>,
 }
 
 /// Why a run has come to its end too early.
@@ -83,6 +86,8 @@ pub struct Stiffer {
     pub ratio: f64,
     /// In how many steps.
     pub steps: usize,
+    /// m, the largest change of a drift or displacement in one of them.
+    pub moved: f64,
 }
 
 /// What a coupled run has left.
@@ -146,7 +151,7 @@ pub fn couple<E>(
     // What is read at the end has the forces there.
     let last: Vec<Line> = ends.iter().flat_map(|end| end.lines(How::Held)).collect();
     corrections.push(state.time(), &last);
-    Ok(Coupled { corrections, stiffer: ends.into_iter().flat_map(|end| end.stiffer).collect() })
+    Ok(Coupled { corrections, stiffer: ends.into_iter().flat_map(End::into_stiffer).collect() })
 }
 
 /// Goes on to a time, s, under these lines.
@@ -267,25 +272,36 @@ impl<'a, E> End<'a, E> {
         match self.stiffness {
             Stiffness::Shear(_) => {
                 for (i, by) in by.iter().enumerate().filter(|(_, by)| by.abs() > least) {
-                    self.note(Some(i + 1), time, force[i] * by / (own[i] * by));
+                    self.note(Some(i + 1), time, force[i] / own[i], by.abs());
                 }
             }
-            _ if by.iter().any(|by| by.abs() > least) => {
+            _ => {
                 let dot = |one: &[f64]| -> f64 { one.iter().zip(&by).map(|(a, b)| a * b).sum() };
-                self.note(None, time, dot(&force) / dot(&own));
+                let farthest = by.iter().fold(0.0_f64, |farthest, by| farthest.max(by.abs()));
+                if farthest > least {
+                    self.note(None, time, dot(&force) / dot(&own), farthest);
+                }
             }
-            _ => {}
         }
     }
 
-    fn note(&mut self, storey: Option<usize>, time: f64, ratio: f64) {
+    /// Where it was stiffer, but for moves that were so small that their forces are rounding.
+    fn into_stiffer(self) -> impl Iterator<Item = Stiffer> {
+        let least = LEAST_MOVE * self.at.largest;
+        self.stiffer.into_iter().filter(move |stiffer| stiffer.moved > least)
+    }
+
+    fn note(&mut self, storey: Option<usize>, time: f64, ratio: f64, moved: f64) {
         if ratio <= STIFFER {
             return;
         }
         let side = self.outside.side;
         match self.stiffer.iter_mut().find(|known| known.storey == storey) {
-            Some(known) => (known.steps, known.ratio) = (known.steps + 1, known.ratio.max(ratio)),
-            None => self.stiffer.push(Stiffer { side, storey, time, ratio, steps: 1 }),
+            Some(known) => {
+                known.steps += 1;
+                (known.ratio, known.moved) = (known.ratio.max(ratio), known.moved.max(moved));
+            }
+            None => self.stiffer.push(Stiffer { side, storey, time, ratio, steps: 1, moved }),
         }
     }
 }
