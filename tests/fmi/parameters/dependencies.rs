@@ -139,7 +139,6 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
         driven_and,
         yielding_and,
         at_rest_and,
-        CORRECTED,
         RICH,
         SCENE,
         UNEVEN,

@@ -92,7 +92,8 @@ fn keys() {
             &[
                 "inputs.floor_forces = 1: expected true or false",
                 "inputs.restoring_corrections = [true]: expected true or false",
-                "inputs.storey_corrections = true: expected a known key (floor_forces, restoring_corrections)",
+                "inputs.storey_corrections = true: expected a known key (floor_forces, restoring_corrections); did you mean \
+                 restoring_corrections?",
             ],
         ),
         (
