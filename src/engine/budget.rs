@@ -33,18 +33,13 @@ pub(super) struct Progress {
     pub most: u64,
 }
 
-/// The counts that the limit knows.
+/// The counts that the limit knows, by kinds of work ([`Counters`]).
 #[derive(Clone, Copy)]
 pub(super) struct Steps {
-    /// In contact.
     pub in_contact: u64,
-    /// In which an element yields and no contact is closed.
     pub yielding: u64,
-    /// Apart.
     pub apart: u64,
-    /// Pieces of flights that were searched.
     pub searched: u64,
-    /// For the energy account.
     pub energy: u64,
 }
 

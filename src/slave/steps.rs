@@ -42,7 +42,7 @@ impl Slave {
     ///
     /// # Errors
     /// Those of [`Slave::do_step`].
-    #[inline]
+    #[inline(always)]
     pub fn begin_step(&mut self, current: f64, step: f64) -> Result<StepPart, Refusal> {
         if self.is_over() {
             return Ok(self.done(current + step, false));
@@ -58,6 +58,7 @@ impl Slave {
 
     /// Goes on to the end of a step, or to an event in it. `held` are the discrete outputs as the master sees them until it
     /// enters Event Mode.
+    #[inline]
     pub(super) fn advance(&mut self, target: f64, held: Option<Held>) -> Result<StepPart, Refusal> {
         let (returns_early, updates) = (self.interface.returns_early(), self.updates.outputs);
         let stops = returns_early || updates;

@@ -6,8 +6,8 @@ use super::flight_modes::FlightModes;
 use super::floor_rows::FloorRows;
 use super::floors::Floors;
 use super::form::Form;
-use super::lane_matrix::LaneMatrix;
-use super::lanes::{LANES, dot};
+use super::lane_matrix::{LaneMatrix, block_of_all};
+use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use super::motion::{LinearLoad, Motion};
@@ -256,6 +256,13 @@ impl Structure {
         self.coupling
             .iter()
             .any(|coupling| (coupling.offset..coupling.offset + coupling.matrix.nrows()).contains(&mode))
+    }
+
+    /// The motions of a block of floors from as many modal vectors of displacements, velocities ...: lane by lane as in a
+    /// vector of all floors.
+    #[inline]
+    pub fn at_floors<const N: usize>(&self, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
+        block_of_all(&self.to_floors, block, modal)
     }
 
     /// The motion of one lane of a vector of all floors from a modal one of displacements, velocities ...

@@ -30,6 +30,13 @@ impl LaneMatrix {
         LaneMatrix { source, columns: size, target: blocks.start, entries }
     }
 
+    /// The rows of one block of the target, where any of them is of this matrix.
+    #[inline(always)]
+    fn rows(&self, block: usize) -> Option<&[Lane]> {
+        let start = block.checked_sub(self.target)? * self.columns;
+        self.entries.get(start..start + self.columns)
+    }
+
     /// `out` += the magnitudes of the matrix * `vector`.
     pub(super) fn add_sizes(&self, vector: &[f64], out: &mut [Lane]) {
         for (rows, out) in self.entries.chunks_exact(self.columns.max(1)).zip(&mut out[self.target..]) {
@@ -51,34 +58,56 @@ impl LaneMatrix {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
     for (rows, out) in matrix.entries.chunks_exact(matrix.columns.max(1)).zip(&mut out[matrix.target..]) {
-        add_products(rows, &vector[matrix.source..], out);
+        add_products(rows, &[vector], matrix.source, std::array::from_mut(out));
     }
 }
 
-/// Adds rows times the numbers of a vector, summed two by two: neither has to wait for the other.
+/// One block of the sum of some matrices, times each of some vectors.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn block_of_all<const N: usize>(matrices: &[LaneMatrix], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
+    let mut sums = [[0.0; LANES]; N];
+    for matrix in matrices {
+        if let Some(rows) = matrix.rows(block) {
+            add_products(rows, &vectors, matrix.source, &mut sums);
+        }
+    }
+    sums
+}
+
+/// Adds rows times the numbers of some vectors from a lane on, summed two by two: neither has to wait for the other.
 #[inline(always)]
-fn add_products(rows: &[Lane], vector: &[f64], sum: &mut Lane) {
-    let ((pairs, last), (values, last_value)) = (rows.as_chunks::<2>(), vector[..rows.len()].as_chunks::<2>());
-    let (mut even, mut odd) = ([0.0; LANES], [0.0; LANES]);
-    // Equal lengths: no bounds checks below. Loops over arrays of constant length leave the sums in registers.
-    let (count, values) = (pairs.len(), &values[..pairs.len()]);
+fn add_products<const N: usize>(rows: &[Lane], vectors: &[&[f64]; N], from: usize, sums: &mut [Lane; N]) {
+    let (pairs, last) = rows.as_chunks::<2>();
+    // Equal lengths: no bounds checks below. Without closures, whose code would not be compiled for wide instructions.
+    let (count, mut firsts, mut lasts) = (pairs.len(), [&[][..]; N], [&[][..]; N]);
+    for n in 0..N {
+        let (first, last) = vectors[n][from..][..rows.len()].as_chunks::<2>();
+        (firsts[n], lasts[n]) = (&first[..count], last);
+    }
+    let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+    // Loops over arrays of constant length leave the sums in registers.
     for k in 0..count {
-        let ([row, next], [value, other]) = (pairs[k], values[k]);
-        for i in 0..LANES {
-            even[i] += row[i] * value;
-            odd[i] += next[i] * other;
+        let [row, next] = pairs[k];
+        for n in 0..N {
+            let [value, other] = firsts[n][k];
+            for i in 0..LANES {
+                even[n][i] += row[i] * value;
+                odd[n][i] += next[i] * other;
+            }
         }
     }
-    for i in 0..LANES {
-        even[i] += odd[i];
-    }
-    if let ([row], [value]) = (last, last_value) {
+    for n in 0..N {
         for i in 0..LANES {
-            even[i] += row[i] * value;
+            even[n][i] += odd[n][i];
         }
-    }
-    for i in 0..LANES {
-        sum[i] += even[i];
+        if let ([row], [value]) = (last, lasts[n]) {
+            for i in 0..LANES {
+                even[n][i] += row[i] * value;
+            }
+        }
+        for i in 0..LANES {
+            sums[n][i] += even[n][i];
+        }
     }
 }
 
@@ -90,12 +119,8 @@ mod tests {
     fn matrices_that_share_a_block_keep_their_own_rows() {
         let matrices =
             [LaneMatrix::new(1, 0, 0, |_, _| 2.0), LaneMatrix::new(2, 1, 2, |i, j| [[3.0, 4.0], [5.0, 6.0]][i][j])];
-        for (vector, expected) in
-            [([1.0, 10.0, 100.0, 0.0], [2.0, 0.0, 430.0, 650.0]), ([-1.0, 0.0, 1.0, 0.0], [-2.0, 0.0, 4.0, 6.0])]
-        {
-            let mut got = [[0.0; LANES]];
-            matrices.iter().for_each(|matrix| matrix.add(&vector, &mut got));
-            assert_eq!(got, [expected]);
-        }
+        let vectors = [[1.0, 10.0, 100.0, 0.0], [-1.0, 0.0, 1.0, 0.0]];
+        let got = block_of_all(&matrices, 0, vectors.each_ref().map(|vector| &vector[..]));
+        assert_eq!(got, [[2.0, 0.0, 430.0, 650.0], [-2.0, 0.0, 4.0, 6.0]]);
     }
 }

@@ -25,7 +25,7 @@
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
 //! | `motion.rs` | displacements with velocities, a load or the ground's acceleration with its rate |
-//! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
+//! | `lanes.rs`, `lane_matrix.rs`, `floor_rows.rs` | vectors in blocks of four, their sums of products, matrices between them, and single rows of these |
 
 pub use crate::scene::Side;
 

@@ -18,13 +18,14 @@ const TRIED: [Kind; 2] = [Kind::Window, Kind::Onset];
 impl Model {
     /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
     /// already.
-    #[inline]
+    #[inline(always)]
     pub(in crate::engine) fn plan(&self, state: &mut State, limit: f64) {
         if state.step.kind == StepKind::NotPlanned {
             self.plan_next(state, limit);
         }
     }
 
+    #[inline(never)]
     fn plan_next(&self, state: &mut State, limit: f64) {
         let State { base, step, inputs, counters, work, .. } = state;
         let is_forced = base.is_forced();

@@ -12,7 +12,7 @@ use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::yielding::element::ElementOf;
 use crate::numerics::polynomial::largest;
-use crate::structure::{Motion, Side};
+use crate::structure::{LANES, Motion, Side};
 
 /// Largest |T| for which the bound is used.
 const FURTHEST: f64 = 0.5;
@@ -37,9 +37,11 @@ impl PeakFinder<'_> {
             Coordinates::Modes => {
                 modal.fill(0.0);
                 structure.resist(q, v, 1.0, modal);
-                structure.to_floors(q, &mut out.u);
-                structure.to_floors(v, &mut out.v);
-                structure.to_floors(modal, &mut out.resisted);
+                let blocks = out.u.as_chunks_mut::<LANES>().0.iter_mut().zip(out.v.as_chunks_mut::<LANES>().0);
+                let blocks = blocks.zip(out.resisted.as_chunks_mut::<LANES>().0);
+                for (block, ((u, rate), resisted)) in blocks.enumerate() {
+                    [*u, *rate, *resisted] = structure.at_floors(block, [q, v, modal]);
+                }
             }
         }
         out.shear = Side::BOTH.map(|side| self.shear_of(side, out));

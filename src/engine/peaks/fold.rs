@@ -42,10 +42,13 @@ impl PeakFinder<'_> {
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let mut room = std::mem::take(&mut work.peaks.fold);
-        self.find_survivors(flights, rest, peaks, &mut room);
-        self.read_survivors((flights, rest, whole), &mut room.survivors, peaks, work);
-        work.peaks.fold = room;
+        self.find_survivors(flights, rest, peaks, &mut work.peaks.fold);
+        if work.peaks.fold.survivors.is_empty() {
+            return;
+        }
+        let mut survivors = std::mem::take(&mut work.peaks.fold.survivors);
+        self.read_survivors((flights, rest, whole), &mut survivors, peaks, work);
+        work.peaks.fold.survivors = survivors;
     }
 
     /// Notes the blocks and flights that may exceed the peaks, which are raised to lower bounds over the flights on the way.

@@ -9,7 +9,7 @@
 //! series in time ([`reading`]).
 //!
 //! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and these and the
-//! part of the planned step so far are added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
+//! part of the planned step so far are added when a peak is read, unless it cannot have risen since ([`clearance`]). Velocities jump in an impact of `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
 pub mod clearance;
 pub mod contact;

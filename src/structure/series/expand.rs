@@ -38,10 +38,12 @@ pub fn flight_order(angle: f64, remainder: f64) -> Option<usize> {
     if angle > LONGEST_ANGLE {
         return None;
     }
-    let (mut term, mut order) = (1.0, 0);
-    while term > remainder || order < 4 {
+    // Counted in both types: a conversion in each turn would cost more than the rest of it.
+    let (mut term, mut order, mut count) = (1.0, 0, 0.0);
+    while order < 4 || term > remainder {
         order += 1;
-        term *= angle / order as f64;
+        count += 1.0;
+        term *= angle / count;
     }
     Some(order)
 }
