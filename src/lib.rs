@@ -26,7 +26,7 @@
 //! | storey shear V = r k d + (1 - r) k z, z = d - p, abs(z) <= V_y / k; yields and turns | `engine/yielding/mod.rs`, `engine/taylor/drifts.rs`, `engine/taylor/switches.rs` | [Chopra2001, chapter 7] |
 //! | gravity on storeys that lean: k' = k (1 - theta), V_y' = V_y (1 - theta), r' = (r - theta) / (1 - theta), theta = P / (h k); collapse | `scene/p_delta.rs`, `engine/taylor/switches.rs` | [Eurocode2004, section 4.4.2.2] |
 //! | foundations: drifts u_i - u_(i-1) - h_i phi, K - K_G as a sum of squares, damping beyond the motion of the foundation | `scene/foundation.rs`, `structure/soil.rs`, `structure/base_shear.rs` | |
-//! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/taylor/follow.rs`, `engine/onset/follow.rs`, `engine/window/solution.rs` | |
+//! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/follow.rs` | |
 //! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |
 //! | derivatives with respect to time, and to inputs at an instant | `engine/output/rates.rs`, `contact/rates.rs`, `engine/output/feedthrough.rs` | |
 //! | Gauss-Legendre quadrature | `numerics/quadrature.rs` | [AbramowitzStegun1964, table 25.4] |

@@ -54,6 +54,7 @@ mod error;
 mod excitation;
 #[allow(unreachable_pub, reason = "public to the engine")]
 mod flight;
+mod follow;
 mod model;
 #[allow(unreachable_pub, reason = "public to the engine")]
 mod onset;

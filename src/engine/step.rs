@@ -212,26 +212,33 @@ impl Step {
     pub(super) fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
         let length = self.planned.length;
         match self.dense() {
-            Dense::Onset(onset) => {
-                let x = length / onset.scale;
-                contacts.iter_mut().filter(|c| c.in_contact()).for_each(|c| c.follow_onset(onset, x, start));
-            }
-            Dense::Window(window, _) => {
-                contacts.iter_mut().filter(|c| c.in_contact()).for_each(|c| c.follow_window(window, length, start));
-            }
+            // A block of pairs is read once for all of them.
             Dense::Taylor(solution) if length > 0.0 => solution.follow(system, contacts, start),
+            Dense::Onset(_) | Dense::Window(..) => {
+                let closed = contacts.iter_mut().filter(|contact| contact.in_contact());
+                closed.for_each(|contact| self.follow_one(system, contact, (length, self.end_powers()), start));
+            }
             Dense::Taylor(_) | Dense::Flight => {}
         }
     }
 
     /// Moves one contact to `elapsed` seconds into a step that began at the time `start` \[s\]; `powers` are those of
     /// that time, used by series in time.
-    pub(super) fn follow_one(&self, system: &System, contact: &mut Contact, elapsed: f64, start: f64, powers: &Powers) {
+    fn follow_one(&self, system: &System, contact: &mut Contact, (elapsed, powers): (f64, &Powers), start: f64) {
+        let p = contact.episode.contact;
         match self.dense() {
-            Dense::Onset(onset) => contact.follow_onset(onset, elapsed / onset.scale, start),
-            Dense::Window(window, _) if elapsed > 0.0 => contact.follow_window(window, elapsed, start),
-            Dense::Taylor(solution) if elapsed > 0.0 => solution.follow_one(system, contact, start, powers),
-            Dense::Window(..) | Dense::Taylor(_) | Dense::Flight => {}
+            Dense::Onset(onset) => {
+                if let Some(course) = onset.course(p, self.planned.length) {
+                    contact.follow(&course, course.reached(elapsed), start);
+                }
+            }
+            Dense::Window(window, _) => {
+                if let Some(course) = window.course(p) {
+                    contact.follow(&course, course.reached(elapsed), start);
+                }
+            }
+            Dense::Taylor(solution) => solution.follow_one(system, contact, start, powers),
+            Dense::Flight => {}
         }
     }
 
@@ -239,7 +246,7 @@ impl Step {
     pub(super) fn contact_at(&self, system: &System, base: &Base, p: usize, elapsed: f64, powers: &Powers) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
-            self.follow_one(system, &mut contact, elapsed, base.time(), powers);
+            self.follow_one(system, &mut contact, (elapsed, powers), base.time());
         }
         contact
     }

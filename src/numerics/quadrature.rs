@@ -21,25 +21,24 @@ pub(crate) const TWELVE: &HalfRule = &[
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
-/// Points and weights of [`TWELVE`] for the integral over 0..=1.
+/// Points, in ascending order, and weights of [`TWELVE`] for the integral over 0..=1.
 pub(crate) const TWELVE_POINTS: [(f64, f64); 12] = {
     let mut points = [(0.0, 0.0); 12];
     let mut i = 0;
     while i < 6 {
         let (node, weight) = TWELVE[i];
-        points[2 * i] = (0.5 * (1.0 - node), 0.5 * weight);
-        points[2 * i + 1] = (0.5 * (1.0 + node), 0.5 * weight);
+        points[5 - i] = (0.5 * (1.0 - node), 0.5 * weight);
+        points[6 + i] = (0.5 * (1.0 + node), 0.5 * weight);
         i += 1;
     }
     points
 };
 
-/// Points and weights for the integral over 0..=length.
+/// Points, in ascending order, and weights for the integral over 0..=length.
 pub(crate) fn gauss(rule: &HalfRule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     let half = 0.5 * length;
-    rule.iter()
-        .flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)])
-        .map(move |(node, weight)| (half * (1.0 + node), half * weight))
+    let below = rule.iter().rev().map(|(node, weight)| (-node, *weight));
+    below.chain(rule.iter().copied()).map(move |(node, weight)| (half * (1.0 + node), half * weight))
 }
 
 /// Points and weights for the integral over 0..=length by quadrature in s with t = s^4. Accurate where the integrand is

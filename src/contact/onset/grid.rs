@@ -188,36 +188,28 @@ impl GridPowers {
     }
 }
 
-/// Value and slope at x of a double series.
-pub(crate) fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
-    let ([value], [slope]) = values_and_slopes(grid, terms, &[x]);
-    (value, slope)
-}
-
-/// The same at some x side by side.
+/// A double series at some x > 0 side by side, and its first derivatives by x.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn values_and_slopes<const N: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> ([f64; N], [f64; N]) {
+pub fn derivatives<const N: usize, const K: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> [[f64; N]; K] {
     let z = x.map(|x| power(x, grid.beta));
-    let (mut value, mut slope, mut factor) = ([0.0; N], [0.0; N], [1.0; N]);
+    let (mut all, mut factor) = ([[0.0; N]; K], [1.0; N]);
     for j in 0..grid.rows {
         let row = &terms[grid.index(0, j)..=grid.index(grid.last(j), j)];
-        let shift = grid.beta * j as f64;
-        let (mut r, mut s) = ([0.0; N], [0.0; N]);
+        let (shift, mut own) = (grid.beta * j as f64, [[0.0; N]; K]);
         for (i, term) in row.iter().enumerate().rev() {
-            let rate = (i as f64 + shift) * term;
-            for k in 0..N {
-                r[k] = r[k] * x[k] + term;
-                s[k] = s[k] * x[k] + rate;
+            let mut term = *term;
+            for k in 0..K {
+                own[k] = std::array::from_fn(|n| own[k][n] * x[n] + term);
+                term *= i as f64 + shift - k as f64;
             }
         }
-        for k in 0..N {
-            value[k] += factor[k] * r[k];
-            slope[k] += factor[k] * s[k];
-            factor[k] *= z[k];
+        for k in 0..K {
+            all[k] = std::array::from_fn(|n| all[k][n] + factor[n] * own[k][n]);
         }
+        factor = std::array::from_fn(|n| factor[n] * z[n]);
     }
-    for k in 0..N {
-        slope[k] /= x[k];
+    for k in 1..K {
+        all[k] = std::array::from_fn(|n| all[k][n] / x[n].powi(k as i32));
     }
-    (value, slope)
+    all
 }

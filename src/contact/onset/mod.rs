@@ -17,5 +17,5 @@ mod grid;
 mod reading;
 
 pub(crate) use block::OnsetBlock;
-pub(crate) use grid::{Grid, GridPowers, MOST_TERMS, Products, value_and_slope, values_and_slopes};
+pub(crate) use grid::{Grid, GridPowers, GridTerms, MOST_TERMS, Products, derivatives};
 pub(crate) use reading::OnsetReading;

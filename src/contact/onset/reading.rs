@@ -3,7 +3,6 @@
 use super::block::OnsetBlock;
 use super::grid::{Grid, GridPowers, GridTerms, MOST_TERMS};
 use crate::contact::taylor::{Each, PAIRS};
-use crate::numerics::polynomial::each;
 
 /// The contacts of a block at some x.
 #[derive(Clone, Copy, Debug, Default)]
@@ -12,11 +11,7 @@ pub(crate) struct OnsetReading {
     pub penetration: Each,
     /// Its derivative by x.
     pub slope: Each,
-    /// Force, N.
-    pub force: Each,
-    /// Its derivative by x.
-    pub force_slope: Each,
-    /// Its integral over x.
+    /// Integral of the force over x.
     pub impulse: Each,
 }
 
@@ -50,23 +45,17 @@ fn copy(rows: &[Each], lane: usize) -> GridTerms {
 
 /// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReading {
-    let [mut value, mut slope, mut product, mut product_slope, mut impulse] = [[0.0; PAIRS]; 5];
+fn read(terms: &[Each], forces: &[Each], powers: &GridPowers) -> OnsetReading {
+    let [mut penetration, mut slope, mut impulse] = [[0.0; PAIRS]; 3];
     let tables = powers.value.iter().zip(&powers.slope).zip(&powers.primitive).take(powers.terms);
-    for ((d, force), ((power, rate), primitive)) in penetration.iter().zip(force).zip(tables).rev() {
+    for ((d, force), ((power, rate), primitive)) in terms.iter().zip(forces).zip(tables).rev() {
         for k in 0..PAIRS {
-            value[k] += d[k] * power;
+            penetration[k] += d[k] * power;
             slope[k] += d[k] * rate;
-            product[k] += force[k] * power;
-            product_slope[k] += force[k] * rate;
             impulse[k] += force[k] * primitive;
         }
     }
-    // The stored force terms are those of F x.
-    let inverse = 1.0 / powers.x;
-    let force = each(|k| product[k] * inverse);
-    let force_slope = each(|k| (product_slope[k] - force[k]) * inverse);
-    OnsetReading { penetration: value, slope, force, force_slope, impulse }
+    OnsetReading { penetration, slope, impulse }
 }
 
 /// See [`OnsetBlock::bounds`].

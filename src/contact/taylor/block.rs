@@ -122,11 +122,6 @@ impl PairBlock {
         }
     }
 
-    /// Whether its forces may have a damping part.
-    pub(crate) fn is_damped(&self) -> bool {
-        !matches!(self.kind, Kind::None | Kind::Spring)
-    }
-
     /// The kind of law of its pairs.
     pub(crate) fn kind(&self) -> Kind {
         self.kind

@@ -1,7 +1,6 @@
 //! Power series of contact forces from those of the penetrations, term by term, while a step is expanded.
 
 mod block;
-mod damping_work;
 mod laws;
 mod reading;
 

@@ -1,8 +1,7 @@
 //! Values, bounds and integrals of the series of pairs, and where pairs are released.
 
 use super::block::{Each, PAIRS, PairBlock};
-use crate::contact::force::Force;
-use crate::numerics::polynomial::{Coefficients, MAX_TERMS, RECIPROCAL, each, value_and_slope};
+use crate::numerics::polynomial::{Coefficients, RECIPROCAL, each};
 use crate::numerics::powers::{Evaluation, Powers};
 
 /// The penetrations of a block at the end of a step.
@@ -71,18 +70,25 @@ impl PairBlock {
         copy(&self.penetration[..self.order + 3], lane, out)
     }
 
-    /// The force, N, that a law gives for the motion of one pair at x, where time passes at a `rate`, s.
-    pub(crate) fn force_at(&self, lane: usize, law: &Force, (x, rate): (f64, f64)) -> f64 {
-        let mut terms = [0.0; MAX_TERMS];
-        let count = self.copy_penetration(lane, &mut terms);
-        let (penetration, slope) = value_and_slope(&terms[..count], x);
-        law.value(penetration, slope / rate)
+    /// The penetration of one pair at some x, m, and its first derivatives by x, derivative k divided by k!.
+    pub(crate) fn derivatives<const N: usize, const K: usize>(&self, lane: usize, x: &[f64; N]) -> [[f64; N]; K] {
+        derivatives(&self.penetration[..self.order + 3], lane, x)
     }
+}
 
-    /// The force of one pair, copied; returns the number of its terms.
-    pub(crate) fn copy_force(&self, lane: usize, out: &mut Coefficients) -> usize {
-        copy(&self.force[..=self.order], lane, out)
+/// See [`PairBlock::derivatives`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn derivatives<const N: usize, const K: usize>(terms: &[Each], lane: usize, x: &[f64; N]) -> [[f64; N]; K] {
+    let mut all = [[0.0; N]; K];
+    for term in terms.iter().rev() {
+        for i in 0..N {
+            for k in (1..K).rev() {
+                all[k][i] = all[k][i] * x[i] + all[k - 1][i];
+            }
+            all[0][i] = all[0][i] * x[i] + term[lane];
+        }
     }
+    all
 }
 
 fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {

@@ -1,78 +1,78 @@
-//! Moves the contacts along an onset step.
+//! The course of a contact through an onset step.
 
-use crate::contact::onset::{GridPowers, value_and_slope, values_and_slopes};
-use crate::engine::base::contact::{Contact, Passage};
+use crate::contact::onset::{Grid, GridPowers, GridTerms, OnsetBlock, derivatives};
+use crate::engine::base::contact::Contact;
+use crate::engine::follow::{Course, Nodes, Reached};
 use crate::engine::onset::series::OnsetSeries;
 use crate::numerics::quadrature::{TWELVE, graded};
-use crate::numerics::roots::{self, Knot, turning_point};
 
-/// Share of a known peak that the series of a force, which is truncated, has to reach before the law itself is
-/// evaluated.
-const NEARLY: f64 = 0.999;
+/// A contact in an onset step of some length, s.
+pub struct OnsetCourse<'a> {
+    onset: &'a OnsetSeries,
+    grid: &'a Grid,
+    contact: usize,
+    block: &'a OnsetBlock,
+    lane: usize,
+    /// Terms of its penetration, m.
+    terms: GridTerms,
+    length: f64,
+}
 
-/// Share of a step at which the slope of a force is evaluated for its sign at the start, where it has no value. A
-/// maximum before that differs from the force at the start only relatively by the square of this.
-const JUST_AFTER: f64 = 1e-6;
-
-impl Contact {
-    /// Moves the contact over 0..=x of an onset step that began at the time `start`, s: penetration, impulse, peaks and
-    /// work.
-    pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
-        let Some(grid) = &onset.grid else { return debug_assert!(false, "an onset step has been planned") };
-        let ((block, lane), scale) = (onset.packed.of(self.episode.contact), onset.scale);
-        let reading = &onset.readings[onset.packed.place(self.episode.contact).0];
-        let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };
-        let law = self.branch();
-        let mut passage = Passage { impulse: end.impulse[lane] * scale, ..Passage::default() };
-        if law.is_damped() {
-            let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
-            for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
-                (*at, *weight) = node;
-            }
-            let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(grid, lane), &at);
-            let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
-            passage.work = scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
-        }
-        // The stored terms are those of the force times x.
-        let force = || {
-            let terms = block.copy_force(grid, lane);
-            move |x: f64| {
-                let (product, slope) = value_and_slope(grid, &terms, x);
-                Knot { x, value: product / x, slope: (slope - product / x) / x }
-            }
+impl OnsetSeries {
+    /// The course of a contact in this step.
+    pub fn course(&self, contact: usize, length: f64) -> Option<OnsetCourse<'_>> {
+        let grid = self.grid.as_ref();
+        debug_assert!(grid.is_some(), "an onset step has been planned");
+        let (block, lane) = self.packed.of(contact);
+        let of = |grid| OnsetCourse {
+            onset: self,
+            grid,
+            contact,
+            block,
+            lane,
+            terms: block.copy_penetration(grid, lane),
+            length,
         };
-        let last = Knot { x, value: end.force[lane], slope: end.force_slope[lane] };
-        if let Some((at, _)) = highest(force, last, NEARLY * self.episode.peak_force) {
-            // The time of the peak is that of the series; its value is the law's for the motion then, as in the output.
-            let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
-            let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
-            let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
-            passage.strongest = Some((peak, start + at * scale));
-        }
-        let penetration = || {
-            let terms = block.copy_penetration(grid, lane);
-            move |x: f64| {
-                let (value, slope) = value_and_slope(grid, &terms, x);
-                Knot { x, value, slope }
-            }
-        };
-        let last = Knot { x, value: end.penetration[lane], slope: end.slope[lane] };
-        passage.deepest = highest(penetration, last, self.episode.peak_penetration).map(|(_, peak)| peak);
-        self.book(passage);
-        (self.penetration, self.rate) = (last.value, last.slope / scale);
+        grid.map(of)
     }
 }
 
-/// (x, value) of the largest value from 0 to the last knot of a smooth curve with one maximum, if it exceeds `known`.
-fn highest<C: Fn(f64) -> Knot>(curve: impl FnOnce() -> C, last: Knot, known: f64) -> Option<(f64, f64)> {
-    let (mut at, mut value) = (last.x, last.value);
-    if last.slope < 0.0 {
-        let curve = curve();
-        let first = curve(JUST_AFTER * last.x);
-        if first.slope > 0.0 {
-            at = turning_point([first, last], &curve);
-            value = curve(roots::roughly(at)).value;
-        }
+impl OnsetCourse<'_> {
+    /// Where the contact is after a time, s.
+    pub fn reached(&self, time: f64) -> Reached {
+        let OnsetCourse { onset, lane, .. } = *self;
+        let x = time / onset.scale;
+        let reading = match onset.powers.x == x {
+            true => onset.readings[onset.packed.place(self.contact).0],
+            false => self.block.read(&GridPowers::at(self.grid, x)),
+        };
+        let (penetration, rate) = (reading.penetration[lane], reading.slope[lane] / onset.scale);
+        Reached { time, penetration, rate, impulse: reading.impulse[lane] * onset.scale }
     }
-    (value > known).then_some((at, value))
+}
+
+impl Course<12> for OnsetCourse<'_> {
+    fn last(&self) -> Reached {
+        self.reached(self.length)
+    }
+
+    fn near(&self, time: f64) -> [f64; 3] {
+        let scale = self.onset.scale;
+        let [[depth], [slope], [second]] = derivatives(self.grid, &self.terms, &[time / scale]);
+        [depth, slope / scale, second / (scale * scale)]
+    }
+
+    fn nodes(&self, until: &Reached) -> Nodes<12> {
+        let (scale, mut times, mut weights) = (self.onset.scale, [0.0; 12], [0.0; 12]);
+        for ((time, weight), node) in times.iter_mut().zip(&mut weights).zip(graded(TWELVE, until.time)) {
+            (*time, *weight) = node;
+        }
+        let [depths, slopes] = derivatives(self.grid, &self.terms, &times.map(|time| time / scale));
+        Nodes { count: 12, times, weights, depths, rates: slopes.map(|slope| slope / scale) }
+    }
+
+    /// It has just begun, or goes on beside one that has: its penetration has one maximum.
+    fn may_turn(&self, contact: &Contact) -> [bool; 2] {
+        [contact.rate > 0.0 && self.last().rate < 0.0, contact.branch().is_damped()]
+    }
 }

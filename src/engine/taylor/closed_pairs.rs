@@ -1,15 +1,12 @@
 //! The closed pairs, those with a contact force, during a Taylor step: series of their penetrations and forces.
 
-use crate::contact::Force;
-use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::taylor::{BlockReading, Each, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
-use crate::engine::base::contact::{Contact, Passage};
+use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::PackedBlocks;
-use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::MotionSeries;
 
 /// The closed pairs, in blocks of one kind of force each.
 #[derive(Clone, Debug)]
@@ -24,14 +21,6 @@ pub struct ClosedPairs {
     pub assigned: Vec<(usize, Kind)>,
     /// The coordinates for which they have been assigned.
     pub coordinates: Coordinates,
-}
-
-/// A block at the end of a step.
-pub struct BlockEnd {
-    /// Penetrations, m, and their derivatives by x.
-    motion: BlockReading,
-    /// Forces, N, their derivatives by x, and impulses.
-    force: ForceReading,
 }
 
 impl ClosedPairs {
@@ -140,99 +129,5 @@ impl ClosedPairs {
                 };
             }
         }
-    }
-
-    /// Moves the contacts to the end of the step, which began at the time `start`, s.
-    pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
-        for ((block, members), reading) in self.packed.all().zip(&self.readings) {
-            let end = BlockEnd::of(block, *reading, powers);
-            for (lane, pair) in members.lanes() {
-                let contact = &mut contacts[pair];
-                let is_trusted = end.is_trusted((block, lane), &contact.branch(), series, powers.x);
-                contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
-            }
-        }
-    }
-
-    /// Moves one contact to the x of the powers, in a step that began at the time `start`, s, and ends at the powers `whole`.
-    pub fn follow_one(
-        &self,
-        contact: &mut Contact,
-        series: &MotionSeries,
-        start: f64,
-        (powers, whole): (&Powers, &Powers),
-    ) {
-        let (block, lane) = self.packed.of(contact.episode.contact);
-        let [end, last] = [powers, whole].map(|powers| BlockEnd::of(block, block.read(powers), powers));
-        let is_trusted = last.is_trusted((block, lane), &contact.branch(), series, whole.x);
-        contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
-    }
-}
-
-/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of
-/// the series is taken.
-const TRUSTED: f64 = 1e-11;
-
-impl BlockEnd {
-    fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        let force = match block.is_elastic() {
-            // An elastic force is largest where the penetration is.
-            true => ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() },
-            false => block.read_force(powers),
-        };
-        BlockEnd { motion, force }
-    }
-
-    /// Whether the series of a force tells the value of its maximum, by its error here, at the end of the whole step: a
-    /// peak must not depend on the part of the step that is read.
-    fn is_trusted(&self, (block, lane): (&PairBlock, usize), law: &Force, series: &MotionSeries, x: f64) -> bool {
-        if block.is_elastic() {
-            return true;
-        }
-        let by_law = law.value(self.motion.value[lane], self.motion.slope[lane] / series.time_rate(x));
-        (self.force.value[lane] - by_law).abs() <= TRUSTED * by_law
-    }
-}
-
-impl Contact {
-    /// Moves a contact over its series up to x: penetration, impulse, peaks and work.
-    fn follow_lane(
-        &mut self,
-        (block, lane): (&PairBlock, usize),
-        (end, is_trusted): (&BlockEnd, bool),
-        series: &MotionSeries,
-        start: f64,
-        x: f64,
-    ) {
-        let depth = end.motion.of(lane);
-        let work = match block.is_damped() {
-            true => block.damping_work(lane, &self.branch(), (&series.time_map, series.scale), x, depth.value),
-            false => 0.0,
-        };
-        let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
-        let first = (block.penetration[0][lane], block.penetration[1][lane]);
-        let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
-        let law = |x: f64| block.force_at(lane, &self.branch(), (x, series.time_rate(x)));
-        let rate = depth.slope / series.time_rate(x);
-        let last = if block.is_elastic() { 0.0 } else { self.branch().value(depth.value, rate) };
-        let strongest = match self.branch() {
-            force if block.is_elastic() => deepest.map(|(at, peak)| (at, force.value(peak, 0.0))),
-            _ => {
-                let terms = |out: &mut Coefficients| block.copy_force(lane, out);
-                let first = (block.force[0][lane], block.force[1][lane]);
-                let found = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms);
-                found.map(|(at, peak)| if is_trusted { (at, peak) } else { (at, law(roots::roughly(at).min(x))) })
-            }
-        };
-        self.book(Passage {
-            impulse: series.scale * end.force.impulse[lane],
-            work,
-            deepest: deepest.map(|(_, peak)| peak),
-            strongest: strongest.map(|(at, peak)| (peak, start + series.time(at))),
-        });
-        (self.penetration, self.rate) = (depth.value, rate);
-        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that
-        // the law gives for the motion then, as in the output.
-        self.raise_peak(last, start + series.time(x));
     }
 }

@@ -7,6 +7,7 @@
 
 pub mod certificate;
 pub mod elastic;
+pub mod follow;
 pub mod kernels;
 pub mod solution;
 pub mod spring;

@@ -79,22 +79,3 @@ impl<R: FnMut(f64) -> Knot> HighestSearch<R> {
         self.peak = if to.x <= self.until { larger(self.peak, to.value) } else { self.peak };
     }
 }
-
-/// (x, value) of the maximum between two places of a curve with one, of which only values are known: by golden sections, to
-/// half of the digits of x, with which the value has all of its own.
-pub(crate) fn maximum_by_values([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> (f64, f64) {
-    const SHARE: f64 = 0.381_966_011_250_105_1;
-    const SECTIONS: u32 = 42;
-    let at = |x: f64| (x, value(x));
-    let mut inner = [at(low + SHARE * (high - low)), at(high - SHARE * (high - low))];
-    for _ in 0..SECTIONS {
-        inner = if inner[0].1 > inner[1].1 {
-            high = inner[1].0;
-            [at(low + SHARE * (high - low)), inner[0]]
-        } else {
-            low = inner[0].0;
-            [inner[1], at(high - SHARE * (high - low))]
-        };
-    }
-    if inner[0].1 > inner[1].1 { inner[0] } else { inner[1] }
-}

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::terms::Terms;
-use super::{Knot, first_upcrossing, highest_by_readings, maximum_above, maximum_by_values, turning_point};
+use super::{Knot, first_upcrossing, highest_by_readings, maximum_above, turning_point};
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::powers::Powers;
 
@@ -224,15 +224,4 @@ fn the_largest_magnitude_is_found_by_readings() {
         assert_eq!(again.to_bits(), found.to_bits(), "case {k}: {again} after {} was known", 0.9 * found);
     }
     assert!(readings < 2000 * 10, "{readings} readings");
-}
-
-#[test]
-fn a_maximum_by_values_alone_has_all_digits() {
-    for point in [1e-3, 0.2, 0.5, 0.999] {
-        let (x, value) = maximum_by_values([0.0, 1.0], |x: f64| 3.0 - (x - point) * (x - point) * (2.0 + x));
-        assert!((x - point).abs() < 1e-7 && (value - 3.0).abs() < 1e-15, "{value} at {x}, not at {point}");
-    }
-    // At an end.
-    let (x, value) = maximum_by_values([0.0, 1.0], |x: f64| -x);
-    assert!(x < 1e-8 && value > -1e-8, "{value} at {x}");
 }

@@ -62,6 +62,11 @@ impl MotionSeries {
         self.time_map.rate(x) * self.scale
     }
 
+    /// d2t/dx2, s.
+    pub fn time_bend(&self) -> f64 {
+        2.0 * self.time_map.curvature * self.scale
+    }
+
     /// x at a time, s.
     pub fn x_at(&self, time: f64) -> f64 {
         self.time_map.inverse(time / self.scale)
