@@ -89,9 +89,9 @@ def compiled_driver():
 
 
 class Case:
-    """A scene as an unpacked FMU, whose peaks may be read at each step."""
+    """A scene as an unpacked FMU, of which no peaks, one or all may be read at each step."""
 
-    def __init__(self, scene, reads_peaks=False):
+    def __init__(self, scene, peaks_read="none"):
         self.name = scene.stem
         folder = WORK / "cases" / scene.stem
         run("cargo", "fmu", scene, "-o", f"{folder}.fmu")
@@ -107,7 +107,8 @@ class Case:
         tops = [max(names, key=number) for names in floors if names]
         forces = [name for name in references if re.fullmatch(r"contact\[\d+\]\.force", name)]
         reals = [name for name, v in variables.items() if v.get("causality") == "output" and v.find("Real") is not None]
-        peaks = [name for name in reals if "peak" in name] if reads_peaks else []
+        peaks = [name for name in reals if "peak" in name]
+        peaks = {"none": [], "one": [name for name in peaks if "peak_drift[" in name][:1], "all": peaks}[peaks_read]
         self.references = [references[name] for name in tops + forces + peaks]
         self.at_end = [references[name] for name in reals]
         self.gaps = [references[name] for name in references if re.fullmatch(r"contact\[\d+\]\.gap", name)]
