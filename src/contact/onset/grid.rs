@@ -198,8 +198,8 @@ pub fn derivatives<const N: usize, const K: usize>(grid: &Grid, terms: &[f64], x
         let (shift, mut own) = (grid.beta * j as f64, [[0.0; N]; K]);
         for (i, term) in row.iter().enumerate().rev() {
             let mut term = *term;
-            for k in 0..K {
-                own[k] = std::array::from_fn(|n| own[k][n] * x[n] + term);
+            for (k, own) in own.iter_mut().enumerate() {
+                *own = std::array::from_fn(|n| own[n] * x[n] + term);
                 term *= i as f64 + shift - k as f64;
             }
         }
@@ -208,8 +208,8 @@ pub fn derivatives<const N: usize, const K: usize>(grid: &Grid, terms: &[f64], x
         }
         factor = std::array::from_fn(|n| factor[n] * z[n]);
     }
-    for k in 1..K {
-        all[k] = std::array::from_fn(|n| all[k][n] / x[n].powi(k as i32));
+    for (k, all) in all.iter_mut().enumerate().skip(1) {
+        *all = std::array::from_fn(|n| all[n] / x[n].powi(k as i32));
     }
     all
 }
