@@ -111,7 +111,7 @@ impl Model {
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
         point.elements = vec![ElementState::default(); self.system.elements.len()];
         point.floors.make_room(lanes);
-        point.work.replace(None);
+        point.work.replace(Some(Box::new(self.buffers())));
         point.peaks = PeakCell::default();
     }
 

@@ -227,7 +227,7 @@ pub fn check_seed(seed: &[u8]) {
 fn enveloped(version: FmiVersion, body: &[u8]) -> Vec<u8> {
     let guid = resources().package.guid(version);
     let fingerprint = Uuid::parse_str(&guid).unwrap_or_default();
-    let mut bytes = b"pounding\x0c\0\0\0".to_vec();
+    let mut bytes = b"pounding\x0d\0\0\0".to_vec();
     bytes.extend_from_slice(fingerprint.as_bytes());
     bytes.extend_from_slice(&(body.len() as u64).to_le_bytes());
     bytes.extend_from_slice(body);
