@@ -166,8 +166,8 @@ fn a_softer_building_outside_is_that_building() {
         assert_eq!(run.episodes.len(), truth.episodes.len());
         got.into_iter().zip(exact).map(|(got, exact)| (got - exact).abs()).collect::<Vec<_>>()
     });
-    for i in 0..4 {
-        let [coarse, fine, finest] = [0, 1, 2].map(|k| errors[k][i]);
+    let [coarse, fine, finest] = errors;
+    for (i, ((coarse, fine), finest)) in coarse.into_iter().zip(fine).zip(finest).enumerate() {
         assert!(finest < 0.1 * coarse && fine < 0.4 * coarse && finest < 2e-3, "{i}: {coarse:e} {fine:e} {finest:e}");
     }
 }
