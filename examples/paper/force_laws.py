@@ -55,10 +55,9 @@ def impacts_table():
         undamped = name in ("linear", "hertz")
         numbers = [f"{of.restitution:.4f}", *map(kilonewtons, (of.first_force, of.peak_force, of.least_force))]
         numbers += [f"{1e3 * of.deepest:.2f}", f"{of.peak_force_time / of.deepest_time:.3f}"]
-        # Of an undamped spring the rest is rounding.
-        numbers += (
-            ["0", "0"] if undamped and abs(of.dissipated) < 1e-9 else [f"{of.dissipated:.0f}", f"{of.loop_area:.0f}"]
-        )
+        # Of an undamped spring the rest is rounding, and so it is by which 2812.5 J become 2812 or 2813.
+        energies = [round(energy, 6) for energy in (of.dissipated, of.loop_area)]
+        numbers += ["0", "0"] if undamped and abs(of.dissipated) < 1e-9 else [f"{energy:.0f}" for energy in energies]
         body.append([f"`{name}`", *(number.replace("-0.0", "0.0") for number in numbers)])
     return statement.numbers(head, body)
 

@@ -151,10 +151,15 @@ def _stiffness(side: str, model: Model) -> list[list[float]]:
     rows = np.atleast_2d(found)
     if found.ndim < 2:
         refuse([] if np.isfinite(rows).all() else [f"{key} = {found.tolist()}: expected finite numbers in N/m"])
-        return rows.tolist()
+        return listed(rows)
     if found.ndim != 2 or rows.shape[0] != rows.shape[1] or not np.isfinite(rows).all():
         raise ValueError(f"{key} of shape {found.shape}: expected a finite symmetric matrix over the floors in N/m")
-    asymmetry = np.abs(rows - rows.T).max() / np.abs(rows).max()
-    if not asymmetry <= ROUNDING:
-        raise ValueError(f"{key}: it differs from its transpose by {asymmetry:.1e} of its largest entry; expected a symmetric matrix")
-    return ((rows + rows.T) / 2).tolist()
+    apart, largest = np.abs(rows - rows.T).max(), np.abs(rows).max()
+    if apart > ROUNDING * largest:
+        share = f"{apart / largest:.1e} of its largest entry"
+        raise ValueError(f"{key}: it differs from its transpose by {share}; expected a symmetric matrix")
+    return listed((rows + rows.T) / 2)
+
+
+def listed(rows: NDArray[Any]) -> list[list[float]]:
+    return [[float(entry) for entry in row] for row in rows]

@@ -100,7 +100,7 @@ def simulate(
 def with_outside(scene: Scene, stiffness: list[tuple[bool, list[list[float]]]]) -> Scene: ...
 def couple(
     scene: Scene,
-    models: list[tuple[bool, Callable[[NDArray[np.float64]], Any]]],
+    models: Sequence[tuple[bool, Callable[[NDArray[np.float64]], Any]]],
     how: str,
     step: float,
     stop: float,
