@@ -121,6 +121,16 @@ def test_shears_are_those_of_the_model_and_the_energy_account_closes():
     assert run["energy.correction"][-1] > 0.1 * run["energy.input"][-1]
 
 
+def test_what_went_in_can_be_read():
+    names = [f"left.{what}[{i}]" for i in (1, 2, 3) for what in ("storey_correction", "storey_shear", "displacement")]
+    run = couple(scene(), left=Bilinear(), step=0.005, outputs=names)
+    for i, stiffness in enumerate(STIFFNESS, 1):
+        below = run[f"left.displacement[{i - 1}]"] if i > 1 else 0.0
+        resists = stiffness * (run[f"left.displacement[{i}]"] - below) - run[f"left.storey_correction[{i}]"]
+        assert run[f"left.storey_shear[{i}]"] == pytest.approx(resists, abs=1e-9 * YIELD[0])
+        assert np.abs(run[f"left.storey_correction[{i}]"]).max() > 0.1 * YIELD[0]
+
+
 def test_a_model_is_moved_once_a_step_to_where_the_floors_are():
     for how in ("held", "line"):
         model = Bilinear()

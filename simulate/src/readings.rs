@@ -1,6 +1,6 @@
 //! What is read of a run, by value reference.
 
-use pounding::engine::{Instant, Output, Side};
+use pounding::engine::{Input, Instant, Output, Side};
 use pounding::variables::{Calculated, Settings, Slot, Table, Type};
 
 /// A numeric variable.
@@ -12,7 +12,9 @@ pub enum Reading {
     Frequency(Side, usize),
     /// Hz, of the model with its links.
     SystemFrequency(usize),
-    /// Does not change: a parameter or an input, which nobody sets.
+    /// What is set from outside.
+    Input(Input),
+    /// Does not change: a parameter.
     Constant(f64),
 }
 
@@ -36,7 +38,7 @@ impl Reading {
             Slot::Calculated(Calculated::Frequency(side, mode)) => Reading::Frequency(side, mode),
             Slot::Calculated(Calculated::SystemFrequency(mode)) => Reading::SystemFrequency(mode),
             Slot::Calculated(calculated) => Reading::Constant(settings.calculate(calculated)),
-            Slot::Input(_) => Reading::Constant(0.0),
+            Slot::Input(input) => Reading::Input(input),
             Slot::Parameter(parameter) => Reading::Constant(settings.read(parameter).real()?),
         })
     }
@@ -52,6 +54,7 @@ impl Reading {
             Reading::Computed(output, _) => now.read(output),
             Reading::Frequency(side, mode) => now.model().natural_frequencies(side)[mode],
             Reading::SystemFrequency(mode) => now.model().system_frequencies()[mode],
+            Reading::Input(input) => now.input(input),
             Reading::Constant(value) => value,
         }
     }

@@ -1,5 +1,6 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
+use crate::engine::excitation::inputs::Input;
 use crate::engine::model::Model;
 use crate::engine::output::outputs::{ContactOutput, FoundationOutput, LinkOutput, Output, Rates, YieldingOf};
 use crate::engine::output::point::Point;
@@ -36,6 +37,11 @@ impl<'a> Instant<'a> {
     /// The time, s.
     pub fn time(&self) -> f64 {
         self.point.time
+    }
+
+    /// An input, in its unit: as it has been set, or what its line has come to; 0 where the scene has no such input.
+    pub fn input(&self, input: Input) -> f64 {
+        self.state.inputs.get(input).at(self.point.time)
     }
 
     /// An output as a number: what is true is 1, and counts are exact up to 2^53. What the scene has not, such as an
