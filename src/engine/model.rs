@@ -52,7 +52,7 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            watched: Watched::of(&system, scene.peaks),
+            watched: Watched::of(structure, system.pushes(), scene.peaks),
             frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),

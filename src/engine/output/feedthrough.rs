@@ -75,7 +75,7 @@ impl Instant<'_> {
                 }
                 Input::Correction(side, storey) => {
                     if let Some(number) = system.number_of_correction((side, storey)) {
-                        system.corrections[number].row.push(Coordinates::Floors, change, accelerations);
+                        system.corrected_rows[number].push(Coordinates::Floors, change, accelerations);
                         corrections[number] += change;
                     }
                 }

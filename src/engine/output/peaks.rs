@@ -7,6 +7,7 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
+use crate::engine::peaks::clearance::Unbroken;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
@@ -35,7 +36,7 @@ impl Instant<'_> {
         let place = model.watched.rows.place(of);
         let mut known = point.peaks.borrow_mut();
         let is_read = known.observation == point.floors.observation;
-        if !is_read && !known.clearance.holds(model.peaks(), state, place / LANES) {
+        if !is_read && !known.clearance.holds(model.peaks(), (&state.base, flights_of(state)), place / LANES) {
             known.observation = point.floors.observation;
             model.read_peaks(state, point, &mut known);
         }
@@ -71,7 +72,7 @@ impl Model {
             _ => self.read_peaks_of_flight(state, (point, elapsed), peaks, work),
         }
         known.work = Some(room);
-        known.clearance.look(self.peaks(), state, &known.peaks);
+        known.clearance.look(self.peaks(), (&state.base, flights_of(state)), &known.peaks);
     }
 
     /// Raises a copy of the base's peaks over the logged flights, of which it may have some already.
@@ -123,4 +124,9 @@ impl Model {
         self.system.fly(base, length, work.buffers, MotionMut { q, v });
         length
     }
+}
+
+/// The flights that a state has behind it since its last event.
+fn flights_of(state: &State) -> Unbroken {
+    (state.work.log.identity, state.counters.events)
 }

@@ -5,11 +5,11 @@
 //! |q| <= e / w, |w^2 q + c q'| <= (w + c) e, of oscillators |q'| <= e. So a quantity stays below a sum over the modes that
 //! grows with that integral alone.
 
+use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::span::{ModeSizes, bound_blocks};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::span_rows::FourModes;
-use crate::engine::state::State;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};
 
@@ -22,8 +22,8 @@ const PAUSE: u64 = 4;
 /// For which segments the peaks of each block are known as they were read last.
 #[derive(Clone, Debug, Default)]
 pub(in crate::engine) struct PeakClearance {
-    /// The log of flights and the number of events with which that was found: after others nothing is known.
-    of: (u64, u64),
+    /// The flights with which that was found: of others nothing is known.
+    of: Unbroken,
     /// For each block the first segment in which its peaks may rise.
     until: Vec<u64>,
     next_look: u64,
@@ -33,16 +33,20 @@ pub(in crate::engine) struct PeakClearance {
     sizes: Vec<ModeSizes>,
 }
 
+/// What has to stay as it is: the identity of the log of flights, which is another one in every other run, and the number of
+/// events, which end flights.
+pub(in crate::engine) type Unbroken = (u64, u64);
+
 impl PeakClearance {
     /// Whether no peak of a block can have risen since the last look.
-    pub(in crate::engine) fn holds(&self, finder: PeakFinder<'_>, state: &State, block: usize) -> bool {
-        let until = self.until.get(block).filter(|_| self.of == run_of(state));
-        until.is_some_and(|until| finder.system.watched_segment(&state.base).is_some_and(|(_, now)| now < *until))
+    pub(in crate::engine) fn holds(&self, finder: PeakFinder<'_>, (base, of): (&Base, Unbroken), block: usize) -> bool {
+        let until = self.until.get(block).filter(|_| self.of == of);
+        until.is_some_and(|until| finder.system.watched_segment(base).is_some_and(|(_, now)| now < *until))
     }
 
-    /// Looks ahead from the base of a state, which has these peaks by now.
-    pub(in crate::engine) fn look(&mut self, finder: PeakFinder<'_>, state: &State, peaks: &Peaks) {
-        let (base, is_known) = (&state.base, self.of == run_of(state));
+    /// Looks ahead from a base, which has these peaks by now.
+    pub(in crate::engine) fn look(&mut self, finder: PeakFinder<'_>, (base, of): (&Base, Unbroken), peaks: &Peaks) {
+        let is_known = self.of == of;
         if !is_known {
             self.until.clear();
         }
@@ -65,7 +69,7 @@ impl PeakClearance {
         self.bound(finder, amplitudes, Some(base.rest.watched.as_chunks::<LANES>().0));
         let ahead = ground.ahead_of(segment);
         let passed = TRIED.map(|segments| ahead.over(segments).1);
-        self.of = run_of(state);
+        self.of = of;
         self.until.clear();
         for ((most, gain), peaks) in self.most.iter().zip(&self.gains).zip(peaks.values.as_chunks::<LANES>().0) {
             let is_cleared = |passed: &&f64| (0..LANES).all(|i| most[i] + gain[i] * **passed <= peaks[i]);
@@ -92,9 +96,4 @@ impl PeakClearance {
             bound_blocks((&body.blocks, rest.map(|rest| &rest[own])), &sizes[body.fours.clone()], most);
         }
     }
-}
-
-/// What has to stay as it is: the log has another identity in every other run, and events end flights.
-fn run_of(state: &State) -> (u64, u64) {
-    (state.work.log.identity, state.counters.events)
 }

@@ -151,8 +151,9 @@ impl PeakFinder<'_> {
                 None
             }
             PeakOf::StoreyShear(side, storey) => {
-                let (lane, stiffness) =
-                    (floors.lane(side as usize, storey), self.system.corrected_stiffness((side, storey)));
+                let number = self.system.number_of_correction((side, storey));
+                let stiffness = number.and_then(|number| self.system.corrections[number].stiffness).unwrap_or(0.0);
+                let lane = floors.lane(side as usize, storey);
                 row[lane] = stiffness;
                 storey.checked_sub(1).iter().for_each(|_| row[lane - 1] = -stiffness);
                 None

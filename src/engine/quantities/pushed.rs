@@ -1,9 +1,17 @@
 //! What a master pushes with adds at once to watched quantities, beyond the motion: to the acceleration of a floor the forces on
 //! it by its mass; to shears minus their corrections.
 
+use crate::engine::quantities::corrections::Correction;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
-use crate::engine::system::System;
-use crate::structure::{LANES, Lane, Side};
+use crate::structure::{LANES, Lane, Structure};
+
+/// What a master may push with.
+#[derive(Clone, Copy)]
+pub(crate) struct Pushes<'a> {
+    /// Whether with a force on each floor.
+    pub floor_forces: bool,
+    pub corrections: &'a [Correction],
+}
 
 /// What is added to a block of quantities.
 #[derive(Debug)]
@@ -24,18 +32,21 @@ struct Term {
 
 impl Pushed {
     /// Of a block; `None` where nothing is added to it.
-    pub(crate) fn of(system: &System, rows: &PeakRows, block: usize) -> Option<Pushed> {
+    pub(crate) fn of((structure, pushes): (&Structure, Pushes<'_>), rows: &PeakRows, block: usize) -> Option<Pushed> {
         let mut terms = Vec::new();
         for lane in 0..LANES {
             let Some(of) = rows.at(block * LANES + lane) else { continue };
             let mut add = |push, factor| terms.push(Term { lane, push, factor });
-            if let (PeakOf::Acceleration(side, floor), true) = (of, system.floor_forces) {
-                let floors = &system.structure.floors;
-                add(system.structure.number(side, floor), floors.inverse_mass(floors.lane(side as usize, floor)));
+            if let (PeakOf::Acceleration(side, floor), true) = (of, pushes.floor_forces) {
+                let floors = &structure.floors;
+                add(structure.number(side, floor), floors.inverse_mass(floors.lane(side as usize, floor)));
             }
-            let first = if system.floor_forces { system.structure.floors_of_both() } else { 0 };
-            for (number, factor) in corrections_in(system, of) {
-                add(first + number, factor);
+            let first = if pushes.floor_forces { structure.floors_of_both() } else { 0 };
+            for (number, correction) in pushes.corrections.iter().enumerate() {
+                match share(structure, correction, of) {
+                    0.0 => {}
+                    factor => add(first + number, factor),
+                }
             }
         }
         (!terms.is_empty()).then_some(Pushed { terms })
@@ -55,20 +66,17 @@ impl Pushed {
     }
 }
 
-/// The corrections in a quantity, by their numbers, with their factors.
-fn corrections_in(system: &System, of: PeakOf) -> Vec<(usize, f64)> {
-    let lane = |side: Side, floor| system.structure.floors.lane(side as usize, floor);
-    let factor = |(number, correction): (usize, &_)| {
-        let crate::engine::system::corrections::Correction { side: own, row, .. } = correction;
-        let factor = match of {
-            PeakOf::Acceleration(side, floor) => {
-                row.floors.iter().filter(|share| share.lane == lane(side, floor)).map(|share| -share.push).sum()
-            }
-            PeakOf::BaseShear(side) if *own == side => -correction.on_base(),
-            PeakOf::StoreyShear(side, storey) if system.structure.number(side, storey) == number => -1.0,
-            _ => 0.0,
-        };
-        (number, factor)
-    };
-    system.corrections.iter().enumerate().map(factor).filter(|(_, factor)| *factor != 0.0).collect()
+/// How much of a quantity a correction is.
+fn share(structure: &Structure, correction: &Correction, of: PeakOf) -> f64 {
+    match of {
+        PeakOf::Acceleration(side, floor) => {
+            let lane = structure.floors.lane(side as usize, floor);
+            let places = correction.places(structure).into_iter();
+            let on_floor = places.filter(|&(side, place, _)| structure.floors.lane_of(side, place) == Some(lane));
+            on_floor.map(|(.., weight)| weight * structure.floors.inverse_mass(lane)).sum()
+        }
+        PeakOf::BaseShear(side) if correction.side == side => -correction.on_base(),
+        PeakOf::StoreyShear(side, storey) if (correction.side, correction.number) == (side, storey) => -1.0,
+        _ => 0.0,
+    }
 }

@@ -13,7 +13,7 @@
 //! force of link        A = stiffness times that                   B = dashpot times that
 //! ```
 
-use crate::engine::system::System;
+use crate::engine::quantities::corrections::Correction;
 use crate::numerics::polynomial::cut;
 use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
@@ -85,12 +85,11 @@ pub(crate) struct RowBlock {
 
 impl PeakRows {
     /// The watched quantities of all bodies; none unless `wanted`.
-    pub(crate) fn of(system: &System, wanted: bool) -> PeakRows {
-        let structure = &system.structure;
+    pub(crate) fn of(structure: &Structure, corrections: &[Correction], wanted: bool) -> PeakRows {
         let links = vec![[0; 2]; structure.links.len()];
         let mut rows = PeakRows { bodies: Vec::new(), buildings: [FirstPlaces::default(); 2], links };
         for b in (0..structure.bodies.len()).filter(|_| wanted) {
-            let of_body = BodyRows::of(system, b, rows.blocks());
+            let of_body = BodyRows::of((structure, corrections), b, rows.blocks());
             for (place, of) in of_body.all() {
                 match of {
                     PeakOf::Displacement(side, 0) => rows.buildings[side as usize].displacement = place,
@@ -162,14 +161,13 @@ impl PeakRows {
 }
 
 impl BodyRows {
-    fn of(system: &System, b: usize, first: usize) -> BodyRows {
-        let structure = &system.structure;
+    fn of((structure, corrections): (&Structure, &[Correction]), b: usize, first: usize) -> BodyRows {
         let body = &structure.bodies[b];
         let links = || (0..structure.links.len()).filter(|l| structure.links[*l].body == b);
         let floors: Vec<(Side, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
         let of_floors = |of: fn(Side, usize) -> PeakOf| floors.iter().map(move |&(side, floor)| of(side, floor));
         let moving = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift));
-        let corrected = system.corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.side));
+        let corrected = corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.side));
         let corrected = corrected.map(|of| PeakOf::StoreyShear(of.side, of.number));
         let moving: Vec<PeakOf> = moving.chain(links().map(PeakOf::LinkDisplacement)).chain(corrected).collect();
         let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.side));
@@ -177,7 +175,9 @@ impl BodyRows {
         let pulling: Vec<PeakOf> = pulling.chain(links().map(PeakOf::LinkForce)).collect();
         let count = body.modes.omega.len();
         let block = |quantities: &[PeakOf]| {
-            RowBlock::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(system, body, *of, m)))
+            RowBlock::of(count, |i, m| {
+                quantities.get(i).map_or([0.0; 2], |of| row_of((structure, corrections), body, *of, m))
+            })
         };
         let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
         BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
@@ -220,8 +220,7 @@ impl BodyRows {
 }
 
 /// The entries of rows A and B of a quantity for one mode of its body.
-fn row_of(system: &System, body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
-    let structure = &system.structure;
+fn row_of((structure, corrections): (&Structure, &[Correction]), body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
     let (modes, w2) = (&body.modes, body.modes.omega[m] * body.modes.omega[m]);
     let damped = |of: &dyn Fn(usize) -> f64| match &modes.damping {
         ModalDamping::Diagonal(c) => c[m] * of(m),
@@ -239,7 +238,8 @@ fn row_of(system: &System, body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
             Some([on_q, on_v]) => [on_q[body.range.start + m], on_v[body.range.start + m]],
         },
         PeakOf::StoreyShear(side, storey) => {
-            [system.corrected_stiffness((side, storey)) * body.drift(side, storey, m), 0.0]
+            let stiffness = corrections[structure.number(side, storey)].stiffness.unwrap_or(0.0);
+            [stiffness * body.drift(side, storey, m), 0.0]
         }
         PeakOf::LinkDisplacement(l) => [structure.links[l].row[body.range.start + m], 0.0],
         PeakOf::LinkForce(l) => {

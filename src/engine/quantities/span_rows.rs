@@ -6,9 +6,8 @@
 //!
 //! Where a master pushes on the buildings, what that adds at once is beside the rows (`pushed.rs`).
 
-use crate::engine::quantities::pushed::Pushed;
+use crate::engine::quantities::pushed::{Pushed, Pushes};
 use crate::engine::quantities::rows::{BodyRows, PeakRows, RowBlock};
-use crate::engine::system::System;
 use crate::structure::{LANES, Lane, Structure};
 use std::ops::Range;
 
@@ -55,8 +54,7 @@ pub(crate) struct SpanBlock {
 
 impl SpanRows {
     /// The quantities of `rows`.
-    pub(crate) fn of(system: &System, rows: &PeakRows) -> SpanRows {
-        let structure = &system.structure;
+    pub(crate) fn of(structure: &Structure, pushes: Pushes<'_>, rows: &PeakRows) -> SpanRows {
         let mut bodies: Vec<SpanBody> =
             rows.bodies.iter().enumerate().map(|(b, body)| SpanBody::of((structure, b), body)).collect();
         let mut numbers: Vec<usize> = bodies.iter().flat_map(|body| body.fours.clone()).collect();
@@ -65,9 +63,9 @@ impl SpanRows {
             let first = numbers.partition_point(|number| *number < fours.start);
             *fours = first..first + fours.len();
         }
-        for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| system.is_pushed) {
+        for (body, of) in bodies.iter_mut().zip(&rows.bodies) {
             for (block, number) in body.blocks.iter_mut().zip(of.first..) {
-                block.pushed = Pushed::of(system, rows, number);
+                block.pushed = Pushed::of((structure, pushes), rows, number);
             }
         }
         SpanRows { fours: numbers.into_iter().map(|number| FourModes::of(structure, number)).collect(), bodies }

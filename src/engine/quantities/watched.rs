@@ -1,12 +1,11 @@
 //! What is watched for its peak in a scene: as rows over the modes, over what moves in flights, block by block over spans of
 //! these, and what bounds need to know of the storeys.
 
-use crate::engine::quantities::pushed::Pushed;
+use crate::engine::quantities::pushed::{Pushed, Pushes};
 use crate::engine::quantities::resistance::FloorResistance;
 use crate::engine::quantities::rows::PeakRows;
 use crate::engine::quantities::span_rows::SpanRows;
-use crate::engine::system::System;
-use crate::structure::LANES;
+use crate::structure::{LANES, Structure};
 
 /// What is watched for its peak.
 #[derive(Debug)]
@@ -20,12 +19,11 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// Of a system, if a scene keeps `peaks`.
-    pub(crate) fn of(system: &System, peaks: bool) -> Watched {
-        let structure = &system.structure;
-        let rows = PeakRows::of(system, peaks);
+    /// Of a structure that a master may push so, if a scene keeps `peaks`.
+    pub(crate) fn of(structure: &Structure, pushes: Pushes<'_>, peaks: bool) -> Watched {
+        let rows = PeakRows::of(structure, pushes.corrections, peaks);
         let oscillating = rows.in_flight(structure);
-        let of_spans = SpanRows::of(system, oscillating.as_ref().unwrap_or(&rows));
+        let of_spans = SpanRows::of(structure, pushes, oscillating.as_ref().unwrap_or(&rows));
         Watched { rows, oscillating, of_spans, resistance: FloorResistance::of(structure) }
     }
 

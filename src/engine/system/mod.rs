@@ -19,7 +19,8 @@ use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
-use crate::engine::system::corrections::Correction;
+use crate::engine::pairs::row::WeightRow;
+use crate::engine::quantities::corrections::Correction;
 use crate::engine::system::tolerance::Tolerance;
 use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
@@ -47,6 +48,8 @@ pub struct System {
     pub floor_forces: bool,
     /// What a master may correct.
     pub corrections: Vec<Correction>,
+    /// The rows along which they act.
+    pub corrected_rows: Vec<WeightRow>,
     /// Whether a master may do any of both.
     pub is_pushed: bool,
     pub tolerance: Tolerance,
@@ -95,6 +98,8 @@ impl System {
         for (of, element) in elements.iter().zip(&initial_elements) {
             of.lift(Coordinates::Modes, -element.plastic, &mut initial[0]);
         }
+        let corrections = Correction::all(scene, &structure);
+        let row = |of: &Correction| WeightRow::of(&structure, of.places(&structure).iter().copied());
         let gravity =
             |building: &Building| if building.has_gravity() { building.gravity_stiffness() } else { Vec::new() };
         Ok(System {
@@ -106,7 +111,8 @@ impl System {
             elements,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
-            corrections: Correction::all(scene, &structure),
+            corrected_rows: corrections.iter().map(row).collect(),
+            corrections,
             is_pushed,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
             contact_coordinates: contact_coordinates(&structure),
