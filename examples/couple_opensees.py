@@ -51,7 +51,7 @@ class OpenSees:
             ops.element("zeroLength", i, i - 1, i, "-mat", i, "-dir", 1)
         ops.timeSeries("Constant", 1)
         ops.pattern("Plain", 1, 1)
-        # Lagrange: displacements are exact. Transformation fails where all are prescribed, Penalty leaves 1e-6.
+        # Lagrange: displacements are exact. Penalty leaves a little; others fail where all freedoms are prescribed.
         ops.constraints("Lagrange")
         ops.numberer("Plain")
         ops.system("FullGeneral")
