@@ -270,7 +270,7 @@ fn check((left, right): (Building, Building), meeting: Meeting, samples: &[f64])
             apart(&rows, &truth)
         });
         println!("{how:?} {:.2e} {:.2e}", errors[0], errors[1]);
-        assert!(errors[0] < 1e-2 && errors[1] < 1e-3, "{how:?}: {errors:?}\n{text}\n{buildings:?}");
+        assert!(errors[0] < 3e-2 && errors[1] < 3e-3, "{how:?}: {errors:?}\n{text}\n{buildings:?}");
     }
 }
 
