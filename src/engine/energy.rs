@@ -6,7 +6,7 @@ use crate::engine::base::element::ElementState;
 use crate::engine::base::planned::At;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::bounds::flights::Load;
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::excitation::inputs::{Inputs, LinearInput, Push};
 use crate::engine::flight::log::FlightLog;
 use crate::engine::model::Model;
 use crate::engine::step::{Dense, Step};
@@ -25,10 +25,8 @@ pub(super) struct Work {
     pub input: f64,
     /// Energy dissipated by structural damping.
     pub viscous: f64,
-    /// Work of the external floor forces.
-    pub external: f64,
-    /// That of the corrections, as forces on the floors.
-    pub correcting: f64,
+    /// That of each kind of push, as forces on the floors.
+    pub pushed: [f64; 2],
 }
 
 impl Account {
@@ -36,8 +34,8 @@ impl Account {
     pub(super) fn add(&mut self, done: &Work) {
         self.input.add(done.input);
         self.viscous.add(done.viscous);
-        self.external.add(done.external);
-        self.correction.add(-done.correcting);
+        self.external.add(done.pushed[Push::Force as usize]);
+        self.correction.add(-done.pushed[Push::Correction as usize]);
     }
 
     /// Which energies could be larger than all terms so far: none, where nothing but the ground has put any in.
@@ -204,13 +202,10 @@ impl System {
         }
         // Work of what a master pushes with at its values at the base; the quadratures add that of its change.
         let at_base = |push: &LinearInput| push.after(base.segment.start, base.elapsed);
-        work.load.fill(0.0);
-        self.add_floor_forces(inputs, base.coordinates, at_base, &mut work.load);
-        done.external += self.work_of_load(base, work);
-        if !self.corrections.is_empty() {
+        for push in Push::BOTH.into_iter().filter(|push| !inputs.of_kind(*push).is_empty()) {
             work.load.fill(0.0);
-            self.add_corrections(inputs, base.coordinates, at_base, &mut work.load);
-            done.correcting += self.work_of_load(base, work);
+            self.add_push(push, inputs, base.coordinates, at_base, &mut work.load);
+            done.pushed[push as usize] += self.work_of_load(base, work);
         }
         done
     }
@@ -229,21 +224,14 @@ impl System {
 
     /// Sets `work.push_slopes` to the rates of the floor forces and of the corrections; empty where all are held.
     fn find_push_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Buffers) {
-        let [of_forces, of_corrections] = &mut work.push_slopes;
-        for (slopes, lines) in [(&mut *of_forces, &inputs.floor_forces), (&mut *of_corrections, &inputs.corrections)] {
+        for (push, slopes) in Push::BOTH.into_iter().zip(&mut work.push_slopes) {
             slopes.clear();
-            if lines.iter().any(|line| line.slope() != 0.0) {
-                slopes.resize(self.structure.lanes, 0.0);
+            if inputs.of_kind(push).iter().all(|line| line.slope() == 0.0) {
+                continue;
             }
-        }
-        if !of_forces.is_empty() {
-            self.add_floor_forces(inputs, coordinates, LinearInput::slope, of_forces);
-        }
-        if !of_corrections.is_empty() {
-            self.add_corrections(inputs, coordinates, LinearInput::slope, of_corrections);
-        }
-        if coordinates == Coordinates::Floors {
-            for slopes in &mut work.push_slopes {
+            slopes.resize(self.structure.lanes, 0.0);
+            self.add_push(push, inputs, coordinates, LinearInput::slope, slopes);
+            if coordinates == Coordinates::Floors {
                 slopes.iter_mut().zip(self.structure.floors.mass()).for_each(|(slope, mass)| *slope *= mass);
             }
         }
@@ -346,7 +334,7 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q, node_v, v: damped, push_slopes: [of_forces, of_corrections], powers, account, .. } = work;
+        let Buffers { node_q, node_v, v: damped, push_slopes, powers, account, .. } = work;
         // Oscillators move in flights only, which have their nodes side by side: here move modes, or floors.
         for (t, weight) in nodes {
             motion(t, powers, node_q, node_v);
@@ -364,10 +352,8 @@ impl System {
             for (l, done) in dashpots.iter_mut().enumerate() {
                 *done += weight * self.power_of_dashpot(l, self.link_closing(l, v));
             }
-            for (done, slopes) in [(&mut done.external, &*of_forces), (&mut done.correcting, of_corrections)] {
-                if !slopes.is_empty() {
-                    *done += weight * (from + t) * dot(slopes, v);
-                }
+            for (done, slopes) in done.pushed.iter_mut().zip(&*push_slopes).filter(|(_, slopes)| !slopes.is_empty()) {
+                *done += weight * (from + t) * dot(slopes, v);
             }
         }
     }

@@ -18,6 +18,19 @@ pub enum Input {
     Correction(Side, usize),
 }
 
+/// What a master pushes on the buildings with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::engine) enum Push {
+    /// Forces on floors.
+    Force,
+    /// Corrections of what buildings resist with.
+    Correction,
+}
+
+impl Push {
+    pub(in crate::engine) const BOTH: [Push; 2] = [Push::Force, Push::Correction];
+}
+
 /// The inputs of a master, each constant or linear in time until it is set again.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Inputs {
@@ -85,9 +98,17 @@ impl Inputs {
         }
     }
 
+    /// All of one kind; none where the scene does not have them.
+    pub(in crate::engine) fn of_kind(&self, push: Push) -> &[LinearInput] {
+        match push {
+            Push::Force => &self.floor_forces,
+            Push::Correction => &self.corrections,
+        }
+    }
+
     /// All that a master pushes with, in one order: forces on floors, then corrections.
     pub(in crate::engine) fn pushes(&self) -> impl Iterator<Item = &LinearInput> {
-        self.floor_forces.iter().chain(&self.corrections)
+        Push::BOTH.into_iter().flat_map(|push| self.of_kind(push))
     }
 
     /// One of these.

@@ -2,7 +2,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::element::ElementState;
-use crate::engine::excitation::inputs::LinearInput;
+use crate::engine::excitation::inputs::{LinearInput, Push};
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{ContactOutput, EnergyOutput as E, EnergyRates, LinkOutput, Rates};
@@ -40,23 +40,13 @@ impl Instant<'_> {
         let gravity = self.gravity_rates(rates);
         let strain = [strain[0] - gravity[0], strain[1] - gravity[1]];
         let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
-        let mut pushed = |is_by_forces: bool| {
+        let [external, correcting] = Push::BOTH.map(|push| {
             load.fill(0.0);
             slope.fill(0.0);
-            let at = |push: &LinearInput| push.at(state.time);
-            match is_by_forces {
-                true => {
-                    system.add_floor_forces(&state.inputs, coordinates, at, load);
-                    system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
-                }
-                false => {
-                    system.add_corrections(&state.inputs, coordinates, at, load);
-                    system.add_corrections(&state.inputs, coordinates, LinearInput::slope, slope);
-                }
-            }
+            system.add_push(push, &state.inputs, coordinates, |line| line.at(state.time), load);
+            system.add_push(push, &state.inputs, coordinates, LinearInput::slope, slope);
             [inner(load, v), inner(slope, v) + inner(load, a)]
-        };
-        let [external, correcting] = [true, false].map(&mut pushed);
+        });
         let ones = system.participation(coordinates);
         let (momentum, push) = (inner(ones, v), inner(ones, a));
         let (ground, ground_rate) = (point.ground_acceleration, rates.ground_acceleration[0]);

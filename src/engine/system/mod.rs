@@ -1,10 +1,10 @@
 //! The mechanical system: buildings, pairs and ground. All kinds of steps use it; it knows none of them.
 
 pub mod buffers;
-pub mod corrections;
 pub mod error_norm;
 pub mod limits;
 pub mod links;
+pub mod pushes;
 pub mod rest;
 pub mod tolerance;
 

@@ -1,7 +1,7 @@
 //! What a master pushes on the buildings with, as loads: forces on floors, and corrections of what the buildings resist with.
 
 use crate::engine::base::Coordinates;
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::excitation::inputs::{Inputs, LinearInput, Push};
 use crate::engine::quantities::pushed::Pushes;
 use crate::engine::system::System;
 use crate::structure::Side;
@@ -20,8 +20,23 @@ impl System {
         part: impl Fn(&LinearInput) -> f64,
         load: &mut [f64],
     ) {
-        self.add_floor_forces(inputs, coordinates, &part, load);
-        self.add_corrections(inputs, coordinates, part, load);
+        Push::BOTH.into_iter().for_each(|push| self.add_push(push, inputs, coordinates, &part, load));
+    }
+
+    /// The same of one kind of push.
+    pub fn add_push(
+        &self,
+        push: Push,
+        inputs: &Inputs,
+        coordinates: Coordinates,
+        part: impl Fn(&LinearInput) -> f64,
+        load: &mut [f64],
+    ) {
+        let numbers = inputs.of_kind(push).iter().map(part);
+        match push {
+            Push::Force => self.add_forces(numbers, coordinates, load),
+            Push::Correction => self.correct(numbers, coordinates, load),
+        }
     }
 
     /// The same from the numbers of [`Inputs::pushes`], or from none.
@@ -30,28 +45,6 @@ impl System {
             self.add_forces(numbers.by_ref(), coordinates, load);
         }
         self.correct(numbers, coordinates, load);
-    }
-
-    /// Adds the external forces on the floors, or their rates, to a load per unit of mass.
-    pub fn add_floor_forces(
-        &self,
-        inputs: &Inputs,
-        coordinates: Coordinates,
-        part: impl Fn(&LinearInput) -> f64,
-        load: &mut [f64],
-    ) {
-        self.add_forces(inputs.floor_forces.iter().map(part), coordinates, load);
-    }
-
-    /// Adds the corrections, or their rates, to a load per unit of mass.
-    pub fn add_corrections(
-        &self,
-        inputs: &Inputs,
-        coordinates: Coordinates,
-        part: impl Fn(&LinearInput) -> f64,
-        load: &mut [f64],
-    ) {
-        self.correct(inputs.corrections.iter().map(part), coordinates, load);
     }
 
     /// Adds forces on all floors, N, or on none.
@@ -69,6 +62,7 @@ impl System {
         }
     }
 
+    /// Adds corrections of all that can be corrected, N, or of none.
     fn correct(&self, corrections: impl Iterator<Item = f64>, coordinates: Coordinates, load: &mut [f64]) {
         let acting = self.corrected_rows.iter().zip(corrections).filter(|(_, force)| *force != 0.0);
         acting.for_each(|(row, force)| row.push(coordinates, force, load));
