@@ -8,8 +8,8 @@ use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as
 use pyo3::exceptions::{PyException, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// The scene with buildings of other programs: for each, whether it is the right one and its stiffness, N/m, as rows of a matrix, or
-/// a single row of storeys.
+/// The scene with buildings of other programs: for each, whether it is the right one and its stiffness, N/m, as rows of
+/// a matrix, or a single row of storeys.
 #[pyfunction]
 pub fn with_outside(scene: &Bound<'_, Scene>, stiffness: Vec<(bool, Vec<Vec<f64>>)>) -> PyResult<Scene> {
     let of = |(is_right, mut rows): (bool, Vec<Vec<f64>>)| {
@@ -20,9 +20,9 @@ pub fn with_outside(scene: &Bound<'_, Scene>, stiffness: Vec<(bool, Vec<Vec<f64>
     scene.get().0.with_outside(stiffness).map(Scene).map_err(|error| refusal(&error))
 }
 
-/// Runs such a scene; `models` are, for each of its buildings, whether it is the right one and what is called with displacements, m,
-/// and returns forces, N. The scene comes back with what went in, so that the same run can be made again without them, and with
-/// what looks like a slip.
+/// Runs such a scene; `models` are, for each of its buildings, whether it is the right one and what is called with
+/// displacements, m, and returns forces, N. The scene comes back with what went in, so that the same run can be made
+/// again without them, and with what looks like a slip.
 #[pyfunction]
 pub fn couple(
     py: Python<'_>,

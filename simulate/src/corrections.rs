@@ -1,8 +1,10 @@
-//! What another program's building resists with beyond the stiffness of the scene, as it went into a run: lines over its steps.
+//! What another program's building resists with beyond the stiffness of the scene, as it went into a run: lines over
+//! its steps.
 
 use pounding::engine::{Input, Side, State};
 
-/// Inputs that are linear in time from instant to instant. A run under them is the same run without the program they came from.
+/// Inputs that are linear in time from instant to instant. A run under them is the same run without the program they
+/// came from.
 #[derive(Clone, Debug, Default)]
 pub struct Corrections {
     inputs: Vec<Input>,

@@ -1,7 +1,7 @@
 //! Buildings that another program has: a run asks for their restoring forces at each step.
 //!
-//! The run has the stiffness K0 of the scene. What it does not know, c = K0 u - f with f the forces of the program, goes in as a
-//! line over each step; impacts within the step see it, and are found as ever. How the line is found:
+//! The run has the stiffness K0 of the scene. What it does not know, c = K0 u - f with f the forces of the program,
+//! goes in as a line over each step; impacts within the step see it, and are found as ever. How the line is found:
 //!
 //! | | the line over a step | order |
 //! |---|---|---|
@@ -9,14 +9,16 @@
 //! | `Line` | goes on as it went over the step before | 2 |
 //! | `Twice` | leads to where it really ends, as a first try of the step as `Line` has shown | 2, with a smaller error |
 //!
-//! The program never has to go back: it is moved once a step, to where `Held` and `Line` have come, or the first try of `Twice`.
+//! The program never has to go back: it is moved once a step, to where `Held` and `Line` have come, or the first try of
+//! `Twice`.
 
 use crate::corrections::{Corrections, Line};
 use crate::instants;
 use pounding::engine::{Collapse, EngineError, FoundationOutput, Input, Instant, Model, Output, Point, Side, State};
 use pounding::scene::{Scene, Stiffness};
 
-/// By how much a building may seem stiffer than K0 over a step before it counts as stiffer: forces of other programs are rounded.
+/// By how much a building may seem stiffer than K0 over a step before it counts as stiffer: forces of other programs
+/// are rounded.
 const STIFFER: f64 = 1.01;
 /// Of the largest stiffness of a matrix: differences of forces leave as much.
 const ROUNDING: f64 = 1e-6;
@@ -34,8 +36,8 @@ pub enum How {
     Twice,
 }
 
-/// The forces, N, that hold the floors of a building at these displacements relative to their base, m: of all floors, lowest first.
-/// What is asked has happened.
+/// The forces, N, that hold the floors of a building at these displacements relative to their base, m: of all floors,
+/// lowest first. What is asked has happened.
 pub type Answer<'a, E> = Box<dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a>;
 
 /// A building that another program has.
@@ -170,8 +172,8 @@ fn ask<E>(ends: &mut [End<'_, E>], now: &Instant<'_>, length: f64) -> Result<(),
     ends.iter_mut().try_for_each(|end| end.ask(now, length))
 }
 
-/// A building of another program, and what is known of it: drifts and shears of the storeys of a shear building, otherwise
-/// displacements and forces of the floors.
+/// A building of another program, and what is known of it: drifts and shears of the storeys of a shear building,
+/// otherwise displacements and forces of the floors.
 struct End<'a, E> {
     outside: Outside<'a, E>,
     stiffness: &'a Stiffness,

@@ -75,7 +75,8 @@ impl Scenario {
         self.changed(settings)
     }
 
-    /// The same whose buildings another program has, with this stiffness in place of what their storeys are in the scene.
+    /// The same whose buildings another program has, with this stiffness in place of what their storeys are in the
+    /// scene.
     ///
     /// # Errors
     /// Everything that is wrong with it then.

@@ -322,9 +322,9 @@ impl System {
         }
     }
 
-    /// Adds the work of the ground motion, of structural damping and of the change of what a master pushes with since the base,
-    /// over a solution that begins `from` seconds after the base, by the nodes and weights of a quadrature. `motion`(t,
-    /// powers, q, v) writes the velocities at t to v, with q and the tables of powers as scratch.
+    /// Adds the work of the ground motion, of structural damping and of the change of what a master pushes with since
+    /// the base, over a solution that begins `from` seconds after the base, by the nodes and weights of a quadrature.
+    /// `motion`(t, powers, q, v) writes the velocities at t to v, with q and the tables of powers as scratch.
     fn integrate(
         &self,
         base: &Base,

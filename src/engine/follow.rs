@@ -1,14 +1,15 @@
-//! A closed contact is moved through a step, or the first part of it: penetration, impulse, work and peaks, in the same way
-//! whatever kind of step holds it.
+//! A closed contact is moved through a step, or the first part of it: penetration, impulse, work and peaks, in the same
+//! way whatever kind of step holds it.
 //!
-//! Peaks are searched between the nodes of the whole step even where only a part of it is read: they are the same to the last
-//! bit for every reader, and none ever falls.
+//! Peaks are searched between the nodes of the whole step even where only a part of it is read: they are the same to
+//! the last bit for every reader, and none ever falls.
 
 use crate::contact::Force;
 use crate::engine::base::contact::{Contact, Passage};
 use crate::numerics::roots::{Knot, roughly, turning_point};
 
-/// A closed contact in a step, as the solution of its kind of step tells it. Times are in seconds since the start of the step.
+/// A closed contact in a step, as the solution of its kind of step tells it. Times are in seconds since the start of
+/// the step.
 pub(super) trait Course<const N: usize> {
     /// The contact at the end of the step.
     fn last(&self) -> Reached;
@@ -59,8 +60,8 @@ pub(super) struct Nodes<const N: usize> {
 /// A node next to a peak has at least this share of it.
 pub(super) const NEARLY: f64 = 0.97;
 
-/// Share of a step, from either end, within which a force may have no slope. A peak there differs from the force at that end only
-/// relatively by the square of this.
+/// Share of a step, from either end, within which a force may have no slope. A peak there differs from the force at
+/// that end only relatively by the square of this.
 const EDGE: f64 = 1e-6;
 
 impl Contact {
@@ -123,8 +124,8 @@ struct Search<'a, const N: usize, C> {
 }
 
 impl<const N: usize, C: Course<N>> Search<'_, N, C> {
-    /// (time, value) of the largest value inside of a quantity, if it exceeds a `known` one. The quantity has this value for a
-    /// penetration and its rate, and this slope for a penetration and its first two derivatives.
+    /// (time, value) of the largest value inside of a quantity, if it exceeds a `known` one. The quantity has this
+    /// value for a penetration and its rate, and this slope for a penetration and its first two derivatives.
     fn highest(
         &self,
         value: impl Fn(f64, f64) -> f64,

@@ -30,8 +30,8 @@ pub struct Scene {
     pub ground: Ground,
     /// `inputs.floor_forces`: every floor gets an external force input.
     pub floor_forces: bool,
-    /// `inputs.restoring_corrections`: every storey, or floor of a stiffness matrix, gets an input for what the building
-    /// resists with less than its stiffness says.
+    /// `inputs.restoring_corrections`: every storey, or floor of a stiffness matrix, gets an input for what the
+    /// building resists with less than its stiffness says.
     pub restoring_corrections: bool,
     /// What may collide.
     pub contacts: Vec<ContactPair>,

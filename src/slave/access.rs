@@ -13,8 +13,8 @@ use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 impl Slave {
-    /// Reads outputs that are numbers, up to the first variable that is anything else, and returns how many: most of what
-    /// masters read after each step. [`Slave::get`] reads the others.
+    /// Reads outputs that are numbers, up to the first variable that is anything else, and returns how many: most of
+    /// what masters read after each step. [`Slave::get`] reads the others.
     pub fn read_outputs(&mut self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> usize {
         let (Run::Started(simulation), None) = (&mut self.run, &self.held) else { return 0 };
         let now = simulation.now();

@@ -18,7 +18,8 @@ impl FloorRows {
         FloorRows(rows)
     }
 
-    /// The motion of one lane from a modal vector: as [`super::lane_matrix::LaneMatrix`] has it for many, to the last bit.
+    /// The motion of one lane from a modal vector: as [`super::lane_matrix::LaneMatrix`] has it for many, to the last
+    /// bit.
     #[inline]
     pub(super) fn at(&self, lane: usize, modal: &[f64]) -> f64 {
         let (first, row) = &self.0[lane];

@@ -20,11 +20,10 @@ pub(super) type Movement = (Side, Place);
 
 /// Which inputs the outputs of a scene answer to at once, at a communication point at which they are set.
 ///
-/// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, a correction
-/// those of its storey, and where floors are held together they accelerate all of them and change the forces between them.
-/// Shears are less by their corrections. The ground
-/// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
-/// the ground has a share.
+/// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, a
+/// correction those of its storey, and where floors are held together they accelerate all of them and change the forces
+/// between them. Shears are less by their corrections. The ground acceleration cancels out of the absolute
+/// accelerations, but for floors that are held to a wall or to columns in which the ground has a share.
 #[derive(Debug)]
 pub struct Dependencies<'a> {
     scene: &'a Scene,

@@ -46,8 +46,9 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
-/// A scene without contacts is sound where links join the buildings or there is one building only that links hold, where
-/// two FMUs are coupled through their floor forces, another program corrects what a building resists with, or where a building swings freely from its initial motion.
+/// A scene without contacts is sound where links join the buildings or there is one building only that links hold,
+/// where two FMUs are coupled through their floor forces, another program corrects what a building resists with, or
+/// where a building swings freely from its initial motion.
 fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     let scene = facts.scene;
     // Levels tell why `[facing]` has found none.

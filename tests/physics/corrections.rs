@@ -1,5 +1,6 @@
-//! Corrections of what a building resists with, by a master that knows better: motion, shears, energies, peaks and what answers
-//! to them at once, against closed forms, the same building by forces on its floors, and the softer building itself.
+//! Corrections of what a building resists with, by a master that knows better: motion, shears, energies, peaks and what
+//! answers to them at once, against closed forms, the same building by forces on its floors, and the softer building
+//! itself.
 
 use crate::common::problems::frames::zigzag;
 use crate::common::problems::laws::{Laws, contact};
@@ -127,8 +128,8 @@ fn what_resists_with_nothing_flies_straight() {
     }
 }
 
-/// Another program knows that the storeys are softer and says so by lines: second order in the step, and the shears and the
-/// energies of what resists.
+/// Another program knows that the storeys are softer and says so by lines: second order in the step, and the shears and
+/// the energies of what resists.
 #[test]
 fn a_softer_building_outside_is_that_building() {
     let soft = [0.7, 0.5, 0.9];

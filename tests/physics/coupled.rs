@@ -1,5 +1,5 @@
-//! Buildings that another program has: random frames of storeys that are bilinear, trilinear or degrade, beside an integration of
-//! the whole with a step so small that its own error does not show. Nothing of the engine is in it.
+//! Buildings that another program has: random frames of storeys that are bilinear, trilinear or degrade, beside an
+//! integration of the whole with a step so small that its own error does not show. Nothing of the engine is in it.
 
 use crate::common::record;
 use pounding::engine::{EnergyOutput, Model, Output, Side};
@@ -72,7 +72,8 @@ impl Storey {
         force
     }
 
-    /// The shear at a drift that is reached for the first time: hardening to three yield drifts, then softening to a third.
+    /// The shear at a drift that is reached for the first time: hardening to three yield drifts, then softening to a
+    /// third.
     fn first_time(&self, drift: f64) -> f64 {
         let yielded = self.strength / self.stiffness;
         let hardened = self.strength + 0.1 * self.stiffness * (drift.min(3.0 * yielded) - yielded);

@@ -241,8 +241,8 @@ impl Model {
         step.kind = StepKind::NotPlanned;
     }
 
-    /// Moves the elements, and with them the position of rest, to the end of the planned step, whose motion is that of the
-    /// base by now.
+    /// Moves the elements, and with them the position of rest, to the end of the planned step, whose motion is that of
+    /// the base by now.
     fn move_elements(&self, base: &mut Base, step: &Step) {
         if base.elements.is_empty() || step.planned.length == 0.0 {
             return;
@@ -259,8 +259,8 @@ impl Model {
         self.set_rest(base);
     }
 
-    /// Puts each element that yields exactly on its limit: what rounding has added up, or floors that are held together have
-    /// been moved by to stay so, is plastic drift.
+    /// Puts each element that yields exactly on its limit: what rounding has added up, or floors that are held together
+    /// have been moved by to stay so, is plastic drift.
     fn anchor_elements(&self, base: &mut Base) {
         if !base.is_yielding() {
             return;

@@ -29,7 +29,8 @@ pub struct Flights<'a> {
     pub forces: Option<Forces<'a>>,
 }
 
-/// What a master pushes with, in the order of [`Inputs::pushes`](crate::engine::Inputs), linear in time over each flight.
+/// What a master pushes with, in the order of [`Inputs::pushes`](crate::engine::Inputs), linear in time over each
+/// flight.
 #[derive(Clone, Copy)]
 pub struct Forces<'a> {
     /// E^2 = q'''^2 + w^2 q''^2 of all modes at the start of each flight, under the ground's load and the forces'.

@@ -59,11 +59,10 @@
 //! # Which one is asked when
 //!
 //! Apart: first the broad phase, which mostly needs one look for many segments. What it cannot exclude is tested by
-//! both ends of the flight, then by oscillation (however long the flight is), and is then searched piece by piece, again by
-//! both ends of each piece. While forces act: terms, then the search for a root. Within a window of contact forces the second
-//! derivative is bounded instead
-//! (`window/certificate.rs`), and in a step just after an entry the terms of its double series
-//! (`onset/certificate.rs`): these know forces, not rows alone.
+//! both ends of the flight, then by oscillation (however long the flight is), and is then searched piece by piece,
+//! again by both ends of each piece. While forces act: terms, then the search for a root. Within a window of contact
+//! forces the second derivative is bounded instead (`window/certificate.rs`), and in a step just after an entry the
+//! terms of its double series (`onset/certificate.rs`): these know forces, not rows alone.
 //!
 //! # Rules
 //!

@@ -202,8 +202,8 @@ fn set_largest<const N: usize>(span: &Span<N>, flights: &Flights, fours: &[FourM
     }
 }
 
-/// Upper bounds on the magnitudes of the quantities of some blocks: the sums of |A| times the bounds on the modes, about their
-/// values at rest, if these are not 0.
+/// Upper bounds on the magnitudes of the quantities of some blocks: the sums of |A| times the bounds on the modes,
+/// about their values at rest, if these are not 0.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn bound_blocks((blocks, rest): (&[SpanBlock], Option<&[Lane]>), sizes: &[ModeSizes], out: &mut [Lane]) {
     for (b, (SpanBlock { rows, .. }, out)) in blocks.iter().zip(out).enumerate() {

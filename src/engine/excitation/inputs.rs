@@ -13,8 +13,8 @@ pub enum Input {
     GroundAcceleration,
     /// Force on a floor, counted from 0, N, positive to the right; acts where the scene has floor forces.
     Force(Side, usize),
-    /// By how much a storey of a shear building, or a floor of one with a stiffness matrix, counted from 0, resists with
-    /// less than its stiffness says, N; acts where the scene has restoring corrections.
+    /// By how much a storey of a shear building, or a floor of one with a stiffness matrix, counted from 0, resists
+    /// with less than its stiffness says, N; acts where the scene has restoring corrections.
     Correction(Side, usize),
 }
 

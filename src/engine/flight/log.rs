@@ -120,8 +120,8 @@ impl FlightLog {
         self.loads.push(load);
     }
 
-    /// Adds the forces of a master during the flight that has just been added, N, with their rates, and the energies of its modes,
-    /// which are to be written.
+    /// Adds the forces of a master during the flight that has just been added, N, with their rates, and the energies of
+    /// its modes, which are to be written.
     pub fn push_forces(&mut self, forces: impl Iterator<Item = (f64, f64)>, set_energies: impl FnOnce(&mut [f64])) {
         if let Some(of) = &mut self.forces {
             let start = of.energies.len();
@@ -131,8 +131,8 @@ impl FlightLog {
         }
     }
 
-    /// Ends the last flight at a motion, where something other than the ground and a master's forces is about to move the
-    /// buildings.
+    /// Ends the last flight at a motion, where something other than the ground and a master's forces is about to move
+    /// the buildings.
     pub fn close(&mut self, motion: Motion) {
         if let Some(load) = self.loads.last().copied().filter(|load| load.length > 0.0) {
             self.push(motion, load.gap());

@@ -29,8 +29,8 @@ impl System {
         })
     }
 
-    /// Whether all open pairs stay apart and all elements elastic: by a bound on the displacement of each floor, or else on the
-    /// own terms of what the limit is of.
+    /// Whether all open pairs stay apart and all elements elastic: by a bound on the displacement of each floor, or
+    /// else on the own terms of what the limit is of.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
         let mut ahead = self.limits_ahead(base).peekable();
         if ahead.peek().is_none() {

@@ -52,7 +52,8 @@ impl Instant<'_> {
         let impact = contacts.map(|p| self.contact(p).dissipated_energy).sum();
         account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
         let Account { initial, largest, .. } = account;
-        // Yielding, and another program beside the FMU, go on for tens of thousands of steps: there the rounding of plain sums would show.
+        // Yielding, and another program beside the FMU, go on for tens of thousands of steps: there the rounding of
+        // plain sums would show.
         let is_long = !system.elements.is_empty() || !system.corrections.is_empty();
         let of = |sum: Sum| if is_long { sum.exact() } else { sum.value };
         let [input, external, correction, viscous] =

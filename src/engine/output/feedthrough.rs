@@ -1,5 +1,5 @@
-//! Direct feedthrough: accelerations and reactions between held floors that depend on the floor forces and corrections at
-//! the same instant, and shears that are less by their corrections.
+//! Direct feedthrough: accelerations and reactions between held floors that depend on the floor forces and corrections
+//! at the same instant, and shears that are less by their corrections.
 //!
 //! At a given instant, for a given motion, both are linear in the forces as long as the same rigid pairs press. The
 //! ground's acceleration moves all floors alike: absolute accelerations and reactions have feedthrough from it only where
@@ -31,8 +31,8 @@ pub struct Response {
 
 impl Instant<'_> {
     /// Works out how the outputs of this instant answer to changes of inputs at the same instant, for the motion as it
-    /// is: to accelerations of the ground, m/s2, forces on floors and corrections, N. The rigid pairs that press now go on
-    /// pressing.
+    /// is: to accelerations of the ground, m/s2, forces on floors and corrections, N. The rigid pairs that press now go
+    /// on pressing.
     ///
     /// ```
     /// use pounding::engine::{Input, Model, Output, Point, Response, Side};

@@ -9,8 +9,8 @@ use crate::engine::output::point::Point;
 use crate::structure::{Motion, Side};
 
 impl Point {
-    /// Number of rows of the modal matrix that have been multiplied since this point was made; 0 where the motion is that
-    /// of the floors.
+    /// Number of rows of the modal matrix that have been multiplied since this point was made; 0 where the motion is
+    /// that of the floors.
     pub fn rows_read(&self) -> u64 {
         self.floors.rows_read.get()
     }

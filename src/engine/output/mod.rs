@@ -115,7 +115,8 @@ impl Model {
         point.peaks = PeakCell::default();
     }
 
-    /// Works out the load by a master's pushes and contact forces, on which accelerations depend; open contacts have no force.
+    /// Works out the load by a master's pushes and contact forces, on which accelerations depend; open contacts have no
+    /// force.
     fn read_load(&self, state: &State, point: &mut Point) {
         let Point { floors, contacts, coordinates, .. } = point;
         let forces = || {

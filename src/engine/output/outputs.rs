@@ -219,7 +219,8 @@ quantities! {
     Impact impact: f64,
     /// Work of the external floor forces, J.
     External external: f64,
-    /// Work that the buildings have taken up by corrections so far, J: with `strain` that of what resists in their place.
+    /// Work that the buildings have taken up by corrections so far, J: with `strain` that of what resists in their
+    /// place.
     Correction correction: f64,
     /// Energy dissipated by storeys that have yielded, J.
     Hysteretic hysteretic: f64,

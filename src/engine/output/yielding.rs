@@ -12,8 +12,8 @@ use crate::engine::yielding::element::{Element, Present};
 use crate::structure::Side;
 
 impl<'a> Instant<'a> {
-    /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, or as it can
-    /// only be corrected, the shear is that of its drift, everything else 0.
+    /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, or
+    /// as it can only be corrected, the shear is that of its drift, everything else 0.
     pub(super) fn of_yielding(&self, of: YieldingOf, place: (Side, usize)) -> f64 {
         let correction =
             if of == YieldingOf::Shear { self.correction_of(place, |line| line.at(self.state.time)) } else { 0.0 };

@@ -1,7 +1,8 @@
-//! Segments of the record in which no peak of a block can rise, however the ground shakes in them: who reads a peak at each
-//! step need not look at the flights before.
+//! Segments of the record in which no peak of a block can rise, however the ground shakes in them: who reads a peak at
+//! each step need not look at the flights before.
 //!
-//! The amplitude e = sqrt(q'^2 + w^2 q^2) of a mode grows at most by its share of the integral of |ground acceleration|, and
+//! The amplitude e = sqrt(q'^2 + w^2 q^2) of a mode grows at most by its share of the integral of |ground
+//! acceleration|, and
 //! |q| <= e / w, |w^2 q + c q'| <= (w + c) e, of oscillators |q'| <= e. So a quantity stays below a sum over the modes that
 //! grows with that integral alone.
 
@@ -33,8 +34,8 @@ pub(in crate::engine) struct PeakClearance {
     sizes: Vec<ModeSizes>,
 }
 
-/// What has to stay as it is: the identity of the log of flights, which is another one in every other run, and the number of
-/// events, which end flights.
+/// What has to stay as it is: the identity of the log of flights, which is another one in every other run, and the
+/// number of events, which end flights.
 pub(in crate::engine) type Unbroken = (u64, u64);
 
 impl PeakClearance {

@@ -59,8 +59,8 @@ impl PeakFinder<'_> {
         self.find_open(&part, &mut peaks, work);
         self.search_noted(&part, &mut peaks, work);
         work.peaks.starts = starts;
-        // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, a master's
-        // pushes and another position of rest may.
+        // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, a
+        // master's pushes and another position of rest may.
         if self.system.rigid.pairs.is_empty() && !self.system.is_pushed && !base.is_yielding() {
             work.peaks.floors.keep([base.segment.start, end]);
         }

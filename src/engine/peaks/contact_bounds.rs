@@ -55,8 +55,8 @@ impl PeakFinder<'_> {
         !(are_floors_below && are_storeys_below && self.bound_shear(side, h, room).1 <= shear)
     }
 
-    /// For each storey of a building that can be corrected a bound on the magnitude of its shear over a step, and the shears at
-    /// both ends, N: corrections are linear in time.
+    /// For each storey of a building that can be corrected a bound on the magnitude of its shear over a step, and the
+    /// shears at both ends, N: corrections are linear in time.
     pub(super) fn bound_storey_shears(
         &self,
         side: Side,

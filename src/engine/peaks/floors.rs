@@ -18,7 +18,8 @@ use crate::structure::{LANES, Motion, Side};
 const FURTHEST: f64 = 0.5;
 
 impl PeakFinder<'_> {
-    /// Works out the floors of a motion relative to a position of `rest`, without what a master pushes with; `modal` is a scratch vector.
+    /// Works out the floors of a motion relative to a position of `rest`, without what a master pushes with; `modal` is
+    /// a scratch vector.
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,

@@ -1,5 +1,5 @@
-//! Peaks, the largest magnitudes so far in continuous time: of displacements, drifts, absolute accelerations, base shears, and
-//! of storey shears that can be corrected.
+//! Peaks, the largest magnitudes so far in continuous time: of displacements, drifts, absolute accelerations, base
+//! shears, and of storey shears that can be corrected.
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
@@ -8,8 +8,10 @@
 //! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
 //! series in time ([`reading`]).
 //!
-//! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and these and the
-//! part of the planned step so far are added when a peak is read, unless it cannot have risen since ([`clearance`]). Velocities jump in an impact of `stereomechanical`: the motion before and after counts, the impulse itself, in which accelerations are unbounded, does not.
+//! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
+//! these and the part of the planned step so far are added when a peak is read, unless it cannot have risen since
+//! ([`clearance`]). Velocities jump in an impact of `stereomechanical`: the motion before and after counts, the impulse
+//! itself, in which accelerations are unbounded, does not.
 
 pub mod clearance;
 pub mod contact;

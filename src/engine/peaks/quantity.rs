@@ -19,8 +19,8 @@ pub struct Quantity<'a> {
     pub lanes: Option<(usize, Option<usize>)>,
     /// The first of the lanes outside of which both rows are 0, and the one after the last.
     pub span: (usize, usize),
-    /// What is added to the product of its rows and the motion, and its rate: its value at rest and what a master's pushes add
-    /// at once. Accelerations have both in their motion.
+    /// What is added to the product of its rows and the motion, and its rate: its value at rest and what a master's
+    /// pushes add at once. Accelerations have both in their motion.
     pub added: [f64; 2],
     /// From the start of the series on.
     pub ground: LinearGround,

@@ -44,8 +44,9 @@ impl PeakFinder<'_> {
         each(|i| values[i] + at_rest[i])
     }
 
-    /// Takes from the row of a base shear, or a storey shear, what the storey does not resist with if it yields in a step, or from that of
-    /// a link's force what the link does not; returns the part of the force that this row leaves out.
+    /// Takes from the row of a base shear, or a storey shear, what the storey does not resist with if it yields in a
+    /// step, or from that of a link's force what the link does not; returns the part of the force that this row leaves
+    /// out.
     pub(in crate::engine) fn soften_row(&self, of: PeakOf, base: &Base, rows: &mut [Vec<f64>; 2]) -> f64 {
         let number = match of {
             PeakOf::BaseShear(side) => self.system.number_of_storey((side, 0)),

@@ -1,8 +1,9 @@
-//! What a master can correct: what a building resists with, storey by storey, or floor by floor where its stiffness is a matrix.
+//! What a master can correct: what a building resists with, storey by storey, or floor by floor where its stiffness is
+//! a matrix.
 //!
-//! A correction is for a building that only another program can model. That one resists with f, the one here with K u; the
-//! master sets K u - f. The motion knows it as a force along the row of the storey's drift, on its upper floor and against its
-//! lower one or the foundation; shears are less by it.
+//! A correction is for a building that only another program can model. That one resists with f, the one here with K u;
+//! the master sets K u - f. The motion knows it as a force along the row of the storey's drift, on its upper floor and
+//! against its lower one or the foundation; shears are less by it.
 
 use crate::scene::{Place, Scene};
 use crate::structure::{Side, Structure};

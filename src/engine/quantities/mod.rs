@@ -1,5 +1,5 @@
-//! Quantities as rows over the motion: those with limits in flights, those whose peaks are kept, with what a master's pushes add
-//! to these at once, and the coupling of floors that bounds on them need; constant during a run.
+//! Quantities as rows over the motion: those with limits in flights, those whose peaks are kept, with what a master's
+//! pushes add to these at once, and the coupling of floors that bounds on them need; constant during a run.
 
 pub(super) mod corrections;
 pub(super) mod flight_row;

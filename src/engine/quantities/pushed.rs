@@ -1,5 +1,5 @@
-//! What a master pushes with adds at once to watched quantities, beyond the motion: to the acceleration of a floor the forces on
-//! it by its mass; to shears minus their corrections.
+//! What a master pushes with adds at once to watched quantities, beyond the motion: to the acceleration of a floor the
+//! forces on it by its mass; to shears minus their corrections.
 
 use crate::engine::quantities::corrections::Correction;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};

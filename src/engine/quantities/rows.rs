@@ -1,7 +1,7 @@
 //! The quantities whose peaks are kept, as linear functions of the motion, in blocks of four.
 //!
-//! Without contact and what a master pushes with each quantity y is a row A over the displacements q and a row B over the velocities
-//! v of its body's modes, y = A q + B v:
+//! Without contact and what a master pushes with each quantity y is a row A over the displacements q and a row B over
+//! the velocities v of its body's modes, y = A q + B v:
 //!
 //! ```text
 //! displacement         A = shape of the floor                     B = 0

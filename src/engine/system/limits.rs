@@ -1,5 +1,5 @@
-//! What the motion must not pass unseen: the gap of each pair, and the yield drift of each element in either sense. All are a
-//! [`Limit`] of what a row of weights tells, and every proof and every search asks it alone.
+//! What the motion must not pass unseen: the gap of each pair, and the yield drift of each element in either sense. All
+//! are a [`Limit`] of what a row of weights tells, and every proof and every search asks it alone.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::element::{ElementState, Sense};
@@ -37,8 +37,8 @@ enum Of<'a> {
     Element(usize, &'a ElementState),
 }
 
-/// A series of the motion, with the factors of its terms at its end, for their rounding errors, and the substitution of its
-/// time map.
+/// A series of the motion, with the factors of its terms at its end, for their rounding errors, and the substitution of
+/// its time map.
 pub struct Expanded<'a> {
     pub series: &'a MotionSeries,
     pub factors: &'a Coefficients,
@@ -89,8 +89,8 @@ impl<'a> Limit<'a> {
         sense.sign() * (x - self.middle) - self.width
     }
 
-    /// Excess and its rate at the base, where the motion gives the quantity and its rate. The excess is never above 0, and
-    /// exactly 0 where the limit has just been left.
+    /// Excess and its rate at the base, where the motion gives the quantity and its rate. The excess is never above 0,
+    /// and exactly 0 where the limit has just been left.
     #[inline(always)]
     pub fn start(&self, sense: Sense, motion: impl FnOnce() -> (f64, f64)) -> (f64, f64) {
         match self.of {
@@ -109,15 +109,15 @@ impl<'a> Limit<'a> {
         (self.excess(sense, x), sense.sign() * rate)
     }
 
-    /// Whether both ends of a stretch of `h` seconds prove that it is not reached there, if the quantity is off its cubic by at
-    /// most `deviation`: from an excess and its rate to a quantity and its rate.
+    /// Whether both ends of a stretch of `h` seconds prove that it is not reached there, if the quantity is off its
+    /// cubic by at most `deviation`: from an excess and its rate to a quantity and its rate.
     #[inline(always)]
     pub fn keeps_off(&self, from: impl Fn(Sense) -> (f64, f64), to: (f64, f64), (h, deviation): (f64, f64)) -> bool {
         self.senses().iter().all(|sense| stays_below(from(*sense), self.later(*sense, to), (h, deviation)))
     }
 
-    /// Whether the sizes of the terms of a series, which begins at the base, exclude that it is reached. Of a pair that follows
-    /// its own increments no bound on the motion tells.
+    /// Whether the sizes of the terms of a series, which begins at the base, exclude that it is reached. Of a pair that
+    /// follows its own increments no bound on the motion tells.
     pub fn is_excluded_by(&self, sizes: &TermSizes, coordinates: Coordinates, series: &MotionSeries) -> bool {
         if matches!(self.of, Of::Pair(_, contact) if contact.tracked) {
             return false;
@@ -201,16 +201,17 @@ impl System {
         self.pairs.iter().map(Pair::in_flight).chain(self.elements.iter().map(Element::in_flight))
     }
 
-    /// Whether no limit is reached within `length` seconds from a modal motion on, under a load and its slope, by the envelopes
-    /// of the oscillations.
+    /// Whether no limit is reached within `length` seconds from a modal motion on, under a load and its slope, by the
+    /// envelopes of the oscillations.
     pub fn envelopes_stay_within(&self, base: &Base, motion: Motion, loads: LinearLoad, length: f64) -> bool {
         let oscillation = Oscillation::of(self.structure.in_flight(), motion, loads, length);
         let Some(oscillation) = oscillation.filter(|_| !cfg!(without = "envelopes")) else { return false };
         (0..self.count_limits()).all(|i| self.limit(base, i).is_beyond_oscillation(&oscillation))
     }
 
-    /// Sets the power 2 of the quantity of a row with a limit, m, to 0 where it is no more than rounding of the accelerations
-    /// that it is made of: those of a motion with its highest rate, which has the size that it has at the start.
+    /// Sets the power 2 of the quantity of a row with a limit, m, to 0 where it is no more than rounding of the
+    /// accelerations that it is made of: those of a motion with its highest rate, which has the size that it has at the
+    /// start.
     pub fn clear_curvature(
         &self,
         base: &Base,

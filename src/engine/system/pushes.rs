@@ -1,4 +1,5 @@
-//! What a master pushes on the buildings with, as loads: forces on floors, and corrections of what the buildings resist with.
+//! What a master pushes on the buildings with, as loads: forces on floors, and corrections of what the buildings resist
+//! with.
 
 use crate::engine::base::Coordinates;
 use crate::engine::excitation::inputs::{Inputs, LinearInput, Push};

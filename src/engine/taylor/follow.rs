@@ -108,8 +108,8 @@ impl Course<12> for LaneCourse<'_> {
     fn nodes(&self, until: &Reached) -> Nodes<12> {
         let series = &self.solution.series;
         let x = if until.time == self.last().time { self.solution.end.x } else { series.x_at(until.time) };
-        // Near a release the damping force of a power law goes as a root of the time left: it is smoother in the square root
-        // of that time.
+        // Near a release the damping force of a power law goes as a root of the time left: it is smoother in the square
+        // root of that time.
         let least = NEARLY_RELEASED * self.block.penetration[0][self.lane];
         let is_released = self.block.has_roots() && until.penetration < least;
         let nodes = TWELVE_POINTS.map(|(node, weight)| match is_released {

@@ -10,7 +10,8 @@ use crate::engine::system::limits::Expanded;
 use crate::engine::taylor::solution::Solution;
 
 impl System {
-    /// Looks for the first limit that is reached up to the end of the step. What rigid pairs hold together does not yield.
+    /// Looks for the first limit that is reached up to the end of the step. What rigid pairs hold together does not
+    /// yield.
     pub fn first_reached(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
         let mut ahead = self.limits_ahead(base).peekable();
         if ahead.peek().is_none() {

@@ -36,8 +36,8 @@ impl System {
         }
     }
 
-    /// Looks for the first instant up to the end of the step at which an element that yields turns or collapses: at once where
-    /// rigid pairs hold it.
+    /// Looks for the first instant up to the end of the step at which an element that yields turns or collapses: at
+    /// once where rigid pairs hold it.
     pub fn first_turning(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
         for &(i, sense) in &solution.drifts.yielding {
             if self.holds_storey(i, &mut work.rigid) {

@@ -59,9 +59,9 @@ impl Case {
         Case { model, log, end: (Vec::new(), Vec::new()) }
     }
 
-    /// Logs the flights over some samples, which begin with a jump of the ground's acceleration, from a start with other
-    /// velocities, after a gap if there are flights already; under forces and corrections of all floors and storeys, of one or of none
-    /// for some flights each.
+    /// Logs the flights over some samples, which begin with a jump of the ground's acceleration, from a start with
+    /// other velocities, after a gap if there are flights already; under forces and corrections of all floors and
+    /// storeys, of one or of none for some flights each.
     fn fly(&mut self, random: &mut Random, samples: usize, factor: f64) {
         self.log.close(Motion { q: &self.end.0, v: &self.end.1 });
         let (mut state, system) = (self.model.start(0.0), &self.model.system);

@@ -126,14 +126,15 @@ fn rigid_floors_answer_together() {
     }
 }
 
-/// Corrections accelerate both floors of their storey or its foundation, and shears are less by them; on soil and with a matrix.
+/// Corrections accelerate both floors of their storey or its foundation, and shears are less by them; on soil and with
+/// a matrix.
 #[test]
 fn corrections_answer_at_once() {
     for fmu in Fmu::both(CORRECTED) {
         let instance = fmu.instance();
         instance.enter();
-        // Of four floors by forces, of the left ones by 3 corrections, of their foundation and shears by 1, 1 and 2, of the right
-        // ones and their base shear by 2 and 2.
+        // Of four floors by forces, of the left ones by 3 corrections, of their foundation and shears by 1, 1 and 2, of
+        // the right ones and their base shear by 2 and 2.
         let expected = 4 + (3 + 1 + 1 + 2) + (2 + 2);
         assert_eq!(compare_partial(&instance), expected);
         assert_eq!(instance.exit(), OK);

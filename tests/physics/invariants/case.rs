@@ -258,7 +258,8 @@ impl Case {
     }
 }
 
-/// The largest value that a master gives an input: some m/s2, the force that gives a floor some, or a correction likewise.
+/// The largest value that a master gives an input: some m/s2, the force that gives a floor some, or a correction
+/// likewise.
 fn size(scene: &Scene, input: Input) -> f64 {
     match input {
         Input::GroundAcceleration => 4.0,
