@@ -184,7 +184,7 @@ class Problem:
         )
 
     def toml(self, tolerance=None, peaks=True):
-        """The scene; `peaks` says whether it has the peaks of the floors, as it has by default. No other solver has them."""
+        """The scene, with the peaks of the floors, as it has by default, or without: no other solver has them."""
         solver = "" if tolerance is None else f"[solver]\nrelative_tolerance = {tolerance}\n"
         parts = [
             f'name = "{self.name}"\ndescription = "{self.template.title}"\nstop_time = {self.stop}\n',

@@ -2,9 +2,9 @@
 
     "$(ci/environment)" examples/couple_degrading.py --picture degrading.png
 
-A storey of the left building yields, softens beyond four yield drifts, and loses stiffness by what it has been through: reloaded, it
-heads for its farthest point so far (R. W. Clough's rule). The same building with bilinear storeys, which the FMU has itself, stands
-beside the same neighbour in the same ground motion.
+A storey of the left building yields, softens beyond four yield drifts, and loses stiffness by what it has been through:
+reloaded, it heads for its farthest point so far (R. W. Clough's rule). The same building with bilinear storeys, which the
+FMU has itself, stands beside the same neighbour in the same ground motion.
 """
 
 import argparse
@@ -87,7 +87,8 @@ def draw(degrading, bilinear, path):
         name = f"left.storey_shear[{storey}]"
         axes.plot(drift(bilinear, storey), bilinear[name] / 1e3, color="0.7", linewidth=0.8, label="bilinear")
         axes.plot(drift(degrading, storey), degrading[name] / 1e3, linewidth=0.9, label="degrading")
-        axes.plot(drift(degrading, storey)[began], degrading[name][began] / 1e3, "o", color="tab:red", markersize=4, label="an impact begins")
+        at = drift(degrading, storey)[began], degrading[name][began] / 1e3
+        axes.plot(*at, "o", color="tab:red", markersize=4, label="an impact begins")
         axes.set(xlabel="drift [mm]", ylabel="storey shear [kN]", title=f"storey {storey} of the left building")
     panels[0].legend(fontsize=8)
     left, right = (1e3 * degrading[f"{side}.displacement[3]"] for side in ("left", "right"))

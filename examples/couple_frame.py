@@ -3,9 +3,9 @@
     pip install pounding-fmu openseespy
     python examples/couple_frame.py
 
-One bay and four storeys of beams and columns whose sections are fibres of Steel02. Its floors move sideways; what else moves in it,
-rotations of joints, OpenSees solves by itself. Its initial stiffness over the floors, condensed by moving each a little, goes into the
-scene as a matrix. It is no shear building, so that its corrections are forces on floors.
+One bay and four storeys of beams and columns whose sections are fibres of Steel02. Its floors move sideways; what else
+moves in it, rotations of joints, OpenSees solves by itself. Its initial stiffness over the floors, condensed by moving
+each a little, goes into the scene as a matrix. It is no shear building, so that its corrections are forces on floors.
 """
 
 import time as clock
@@ -13,6 +13,7 @@ import time as clock
 import numpy as np
 import openseespy.opensees as ops
 import pounding_fmu
+from couple_opensees import RECORD, OpenSees
 
 BAY, HEIGHT, STOREYS, MASS = 6.0, 3.2, 4, 60e3  # m, m, kg of a floor
 STOP = 12.0  # s
@@ -26,8 +27,8 @@ def section(tag, depth, width, flange, web):
     ops.patch("rect", 1, 8, 1, -depth / 2 + flange, -web / 2, depth / 2 - flange, web / 2)
 
 
-class Frame:
-    """The model, ready to be moved floor by floor."""
+class Frame(OpenSees):
+    """The model, whose floors are moved."""
 
     def __init__(self):
         ops.wipe()
@@ -49,45 +50,20 @@ class Frame:
                 ops.element("forceBeamColumn", 3 * level + side, *ends, 1, 1, "-iter", 50, 1e-12)
             ops.element("forceBeamColumn", 3 * level + 2, 10 * level, 10 * level + 1, 1, 2, "-iter", 50, 1e-12)
             ops.equalDOF(10 * level, 10 * level + 1, 1)
-        ops.timeSeries("Constant", 1)
-        ops.pattern("Plain", 1, 1)
-        ops.constraints("Lagrange")
-        ops.numberer("Plain")
-        ops.system("FullGeneral")
-        ops.test("NormDispIncr", 1e-9, 50)
-        ops.algorithm("Newton")
-        ops.integrator("LoadControl", 0.0)
-        ops.analysis("Static", "-noWarnings")
-
-    def move(self, displacements):
-        ops.remove("loadPattern", 1)
-        ops.pattern("Plain", 1, 1)
-        for level, displacement in enumerate(displacements, 1):
-            ops.sp(10 * level, 1, float(displacement))
-        if ops.analyze(1) != 0:
-            raise RuntimeError("OpenSees finds no equilibrium")
-        ops.reactions()
-        return [ops.nodeReaction(10 * level, 1) for level in range(1, STOREYS + 1)]
-
-    def initial_stiffness(self, by=1e-6):
-        """By small moves to either side, so near to rest that it stays elastic; then it is back at rest."""
-        moves = by * np.eye(STOREYS)
-        columns = [np.subtract(self.move(to), self.move(-to)) / (2 * by) for to in moves]
-        self.move(np.zeros(STOREYS))
-        return np.array(columns).T
+        super().__init__([(10 * level, 1) for level in range(1, STOREYS + 1)])
 
 
 def scene():
     """The frame, 20 mm beside a shear building of three storeys."""
     right = {"stiffness": [250e6, 230e6, 170e6], "yield_force": [1150e3, 940e3, 540e3], "post_yield_ratio": 0.05}
-    contact = {"gap": 0.02, "law": "hertz_damped", "damping_formula": "exact", "stiffness": 2.75e9, "restitution": 0.65}
+    law = {"law": "hertz_damped", "damping_formula": "exact", "stiffness": 2.75e9, "restitution": 0.65}
     return {
         "name": "SteelFrame",
         "stop_time": STOP,
         "left": {"mass": [MASS] * STOREYS, "damping": {"ratio": 0.02}},  # its stiffness is the model's
         "right": {"mass": [170e3, 170e3, 130e3], "damping": {"ratio": 0.05}, **right},
-        "ground": {"record": str(pounding_fmu.example_scene.parent.parent / "records/el_centro_1940_ns.csv"), "pga": 6.0},
-        "contact": [{"left_floor": i, "right_floor": i, **contact} for i in (1, 2, 3)],
+        "ground": {"record": str(RECORD), "pga": 6.0},
+        "contact": [{"left_floor": i, "right_floor": i, "gap": 0.02, **law} for i in (1, 2, 3)],
     }
 
 
@@ -101,5 +77,6 @@ if __name__ == "__main__":
         roof = run[f"left.displacement[{STOREYS}]"][:: round(0.005 / step)]
         finest = roof if finest is None else finest
         apart = np.abs(roof - finest).max() / np.abs(finest).max()
-        peak, shear = (1e3 * np.abs(roof).max(), run["left.peak_base_shear"][-1] / 1e3)
-        print(f"{how:5}   {1e3 * step:9.2f}   {peak:9.2f}   {shear:23.1f}   {run['impacts'][-1]:7}   {apart:18.1e}   {seconds:8.1f}")
+        peak, shear, impacts = 1e3 * np.abs(roof).max(), run["left.peak_base_shear"][-1] / 1e3, run["impacts"][-1]
+        reached = f"{peak:9.2f}   {shear:23.1f}   {impacts:7}"
+        print(f"{how:5}   {1e3 * step:9.2f}   {reached}   {apart:18.1e}   {seconds:8.1f}")

@@ -25,12 +25,12 @@ class Model(Protocol):
     """A building that another program has. Any object with these two methods is one."""
 
     def initial_stiffness(self) -> ArrayLike:
-        """N/m: one number per storey, lowest first, of a shear building, or else a symmetric matrix over the floors. It need not be
-        exact, but at least the largest stiffness that the building ever has."""
+        """N/m: one number per storey, lowest first, of a shear building, or else a symmetric matrix over the floors. It
+        need not be exact, but at least the largest stiffness that the building ever has."""
 
     def move(self, displacements: NDArray[Any]) -> ArrayLike:
-        """The forces, N, that hold the floors at these displacements relative to their base, m, one per floor, lowest first. What
-        is asked has happened: the history of the building goes on from here."""
+        """The forces, N, that hold the floors at these displacements relative to their base, m, one per floor, lowest
+        first. What is asked has happened: the history of the building goes on from here."""
 
 
 def couple(
@@ -48,20 +48,22 @@ def couple(
 ) -> Result:
     """Runs a scene in which one building or both are another program's: it answers with restoring forces, step by step.
 
-    Masses, damping, foundations, gravity, links and contacts are those of the scene, and so is the other building. Of a building
-    that a model has, ``initial_stiffness()`` takes the place of its ``stiffness`` or ``stiffness_matrix``, and it does not yield by
-    itself. What the model adds to that stiffness goes in as a line over each step (the inputs ``left.storey_correction[i]`` or
-    ``left.restoring_correction[i]``), and impacts are found within the step as ever.
+    Masses, damping, foundations, gravity, links and contacts are those of the scene, and so is the other building. Of a
+    building that a model has, ``initial_stiffness()`` takes the place of its ``stiffness`` or ``stiffness_matrix``, and
+    it does not yield by itself. What the model adds to that stiffness goes in as a line over each step (the inputs
+    ``left.storey_correction[i]`` or ``left.restoring_correction[i]``), and impacts are found within the step as ever.
 
     Args:
         scene: a path, a text or a dict, which may leave out the stiffness of a building that a model has.
-        left: the building on the left, with ``initial_stiffness()`` and ``move(displacements)``; without it, that of the scene.
+        left: the building on the left, with ``initial_stiffness()`` and ``move(displacements)``; without it, that of the
+            scene. A model keeps what it has been through: each run wants one of its own.
         right: likewise.
         step: s, from one call of ``move`` to the next, and from row to row.
-        how: ``"line"``: corrections go on over a step as they went over the last one. ``"twice"``: a step is tried so, the model is
-            moved to where that leads, and the step is made again with corrections that lead there: errors are some four times
-            smaller. ``"held"``: corrections stay as they were at the beginning of a step, as masters do that know no slopes. The
-            error of the first two falls with the square of the step, that of the last with the step.
+        how: ``"line"``: corrections go on over a step as they went over the last one. ``"twice"``: a step is tried so,
+            the model is moved to where that leads, and the step is made again with corrections that lead there: errors
+            are three to four times smaller. ``"held"``: corrections stay as they were at the beginning of a step, as
+            masters do that know no slopes. The error of the first two falls with the square of the step, that of the
+            last with the step.
         stop: s, time of the last row; without it the scene's ``stop_time``, else the end of the record, else 10.
         outputs: names of the columns beside ``time``; all outputs where nothing is said.
         parameters: values of parameters of the FMU by name.
@@ -69,9 +71,9 @@ def couple(
         rows_per_impact: as in ``simulate``.
 
     Returns:
-        A run as ``simulate`` returns it. Storey shears, base shears and their peaks are the model's, and peaks are those in
-        continuous time. The model has been moved once at the start and once for each step; it is not asked again for pictures or
-        ``summary()``.
+        A run as ``simulate`` returns it. Storey shears, base shears and their peaks are the model's, and peaks are those
+        in continuous time. The model has been moved once at the start and once for each step; it is not asked again for
+        pictures or ``summary()``.
 
     >>> import numpy as np
     >>> import pounding_fmu
@@ -94,11 +96,12 @@ def couple(
         KeyError: names that the scene does not have.
         OSError: the scene file or the record cannot be read.
         TypeError: the scene is none of the forms that a scene may have; a model lacks one of its methods.
-        RuntimeError: a model has failed (what it has raised is the cause; the message says when, and in which storey the drift was
-            largest), or the run cannot go on.
+        RuntimeError: a model has failed (what it has raised is the cause; the message says when, and in which storey the
+            drift was largest), or the run cannot go on.
 
     Warns:
-        SceneWarning: for each thing that looks like a slip, also where a model becomes stiffer than its ``initial_stiffness()``.
+        SceneWarning: for each thing that looks like a slip, also where a model becomes stiffer than its
+            ``initial_stiffness()``.
     """
     models = {side: model for side, model in zip(SIDES, (left, right)) if model is not None}
     _check(models, how)
@@ -123,7 +126,8 @@ def _check(models: Mapping[str, Model], how: str) -> None:
     for side, model in models.items():
         missing = [name for name in ("initial_stiffness", "move") if not callable(getattr(model, name, None))]
         if missing:
-            raise TypeError(f"{side}: expected a model with initial_stiffness() and move(displacements), but it has no {missing[0]}")
+            expected = "a model with initial_stiffness() and move(displacements)"
+            raise TypeError(f"{side}: expected {expected}, but it has no {missing[0]}")
 
 
 def _completed(scene: Scene, stiffness: Mapping[str, list[list[float]]]) -> Scene:

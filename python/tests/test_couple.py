@@ -19,7 +19,12 @@ LAWS = {
     "hertz_damped": {"stiffness": 3e9, "restitution": 0.6, "damping_formula": "exact"},
     "stereomechanical": {"restitution": 0.6},
 }
-SOIL = {"mass": 15e3, "inertia": 120e3, "sway": {"stiffness": 60e6, "dashpot": 4e5}, "rocking": {"stiffness": 900e6, "dashpot": 4e6}}
+SOIL = {
+    "mass": 15e3,
+    "inertia": 120e3,
+    "sway": {"stiffness": 60e6, "dashpot": 4e5},
+    "rocking": {"stiffness": 900e6, "dashpot": 4e6},
+}
 INSIDE = {"yield_force": YIELD, "post_yield_ratio": RATIO}
 
 
@@ -53,7 +58,13 @@ def scene(left=None, right=None, contact=None, **more):
         "name": "Coupled",
         "stop_time": 6.0,
         "left": {"mass": MASS, "stiffness": STIFFNESS, "damping": {"ratio": 0.03}, "height": [3.0] * 3, **(left or {})},
-        "right": {"mass": MASS[:2], "stiffness": [30e6, 24e6], "damping": {"ratio": 0.03}, "height": [3.0] * 2, **(right or {})},
+        "right": {
+            "mass": MASS[:2],
+            "stiffness": [30e6, 24e6],
+            "damping": {"ratio": 0.03},
+            "height": [3.0] * 2,
+            **(right or {}),
+        },
         "contact": [{"left_floor": i, "right_floor": i, **CONTACT, **(contact or {})} for i in (1, 2)],
         "ground": {"record": str(fmus.RECORD), "pga": 3.0},
         "outputs": {"energy": True},
@@ -135,7 +146,9 @@ def test_a_model_is_moved_once_a_step_to_where_the_floors_are():
     for how in ("held", "line"):
         model = Bilinear()
         run = couple(scene(), left=model, step=0.005, stop=1.0, how=how)
-        assert np.array_equal(np.array(model.asked), floors(run)), "the run, made again without the model, is the same to the bit"
+        assert np.array_equal(np.array(model.asked), floors(run)), (
+            "the run, made again without the model, is the same to the bit"
+        )
     model = Bilinear()
     run = couple(scene(), left=model, step=0.005, stop=1.0, how="twice")
     apart = np.abs(np.array(model.asked) - floors(run)).max()
@@ -203,7 +216,9 @@ def test_the_scene_may_leave_out_what_the_model_has_and_does_not_yield_beside_it
 
 
 def test_a_stiffness_that_is_too_soft_is_told():
-    with pytest.warns(SceneWarning, match=r"left, storey 2: the model was up to 2\.000 times as stiff .* first at 0\.0"):
+    with pytest.warns(
+        SceneWarning, match=r"left, storey 2: the model was up to 2\.000 times as stiff .* first at 0\.0"
+    ):
         couple(scene(), left=Bilinear(initial=STIFFNESS * [1.0, 0.5, 1.0]), step=0.002, stop=2.0)
     with pytest.warns(SceneWarning, match=r"left: the model was up to 1\.[0-9]+ times as stiff"):
         couple(scene(), left=Bilinear(initial=0.6 * matrix() + np.full((3, 3), 1e5)), step=0.002, stop=2.0)
@@ -229,7 +244,9 @@ class Failing(Bilinear):
 
 def test_what_a_model_raises_comes_with_time_and_storey():
     model = Failing(ZeroDivisionError("no equilibrium"))
-    with pytest.raises(RuntimeError, match=r"left: the model failed at 1\.5 s, .* in storey [123]: no equilibrium") as caught:
+    with pytest.raises(
+        RuntimeError, match=r"left: the model failed at 1\.5 s, .* in storey [123]: no equilibrium"
+    ) as caught:
         couple(scene(), left=model, step=0.005)
     assert caught.value.__cause__ is model.answer
     drift = np.abs(np.diff(model.asked[-1], prepend=0.0))
@@ -261,7 +278,9 @@ def test_answers_that_are_no_forces_are_refused(answer, said):
     assert said in str(caught.value)
 
 
-@pytest.mark.parametrize("kind", [list, tuple, lambda forces: forces.astype(np.float32), lambda forces: np.repeat(forces, 2)[::2]])
+@pytest.mark.parametrize(
+    "kind", [list, tuple, lambda forces: forces.astype(np.float32), lambda forces: np.repeat(forces, 2)[::2]]
+)
 def test_forces_may_be_any_numbers(kind):
     class Other(Bilinear):
         def move(self, displacements):
@@ -290,7 +309,9 @@ def test_a_stiffness_that_is_none_is_refused(stiffness, said):
 
 
 def test_wrong_arguments():
-    with pytest.raises(ValueError, match=r"how = 'both': expected one of line, twice, held\nleft, right: expected a model"):
+    with pytest.raises(
+        ValueError, match=r"how = 'both': expected one of line, twice, held\nleft, right: expected a model"
+    ):
         couple(scene(), how="both")
     with pytest.raises(TypeError, match=r"right: expected a model .* it has no move"):
         couple(scene(), right=type("Still", (), {"initial_stiffness": lambda self: STIFFNESS})())
@@ -322,6 +343,12 @@ def test_a_result_is_as_any_other_and_never_asks_the_model_again():
 
 
 def test_a_collapse_of_the_other_building_ends_the_run():
-    right = {"mass": [20e3, 20e3], "yield_force": [30e3, 30e3], "post_yield_ratio": 0.0, "p_delta": True, "gravity_load": [4e6, 2e6]}
+    right = {
+        "mass": [20e3, 20e3],
+        "yield_force": [30e3, 30e3],
+        "post_yield_ratio": 0.0,
+        "p_delta": True,
+        "gravity_load": [4e6, 2e6],
+    }
     run = couple(scene(right=right), left=Bilinear(), step=0.005)
     assert run["right.collapsed"][-1] and run["time"][-1] < 6.0

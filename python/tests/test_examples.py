@@ -71,23 +71,21 @@ def test_rows_with_early_return_have_every_impact_at_its_time():
 def test_a_building_of_another_program_converges_to_one_fmu():
     """The table of docs/coupling.md: how, step, error, impacts and largest base shear inside and coupled."""
     example = module("couple_opensees")
-    rows = {how: [row[1:] for row in example.compare(example.Storeys) if row[0] == how] for how in ("held", "line", "twice")}
+    rows = list(example.compare(example.Storeys))
     for how, order in [("held", 1.0), ("line", 2.0), ("twice", 2.0)]:
-        errors = [row[1] for row in rows[how]]
+        errors = [error for way, _, error, *_ in rows if way == how]
         assert np.log2(errors[0] / errors[-1]) / 3 == pytest.approx(order, abs=0.2), errors
-        *_, (_, _, inside, coupled, exact, found) = rows[how]
-        assert inside == coupled == 17
+        *_, (impacts, (exact, found)) = [both for way, _, _, *both in rows if way == how]
+        assert impacts == [17, 17]
         assert found == pytest.approx(exact, rel={"held": 2e-2, "line": 2e-4, "twice": 2e-4}[how])
 
 
 def test_masters_of_fmi_2_and_3_do_what_couple_does():
     example = module("couple_opensees")
-    names = [f"left.displacement[{i}]" for i in range(1, 5)]
-    exact, line, twice = (np.column_stack([run[name] for name in names]) for run in (
-        example.pounding_fmu.simulate(example.scene(yield_force=example.YIELD, post_yield_ratio=example.RATIO), 0.005, 6.0),
-        *(example.pounding_fmu.couple(example.scene(), example.Storeys(), step=0.005, how=how, stop=6.0) for how in ("line", "twice")),
-    ))  # fmt: skip
-    errors = [np.abs(one - exact).max() / np.abs(exact).max() for one in (line, twice)]
+    couple, whole, errors = example.pounding_fmu.couple, example.inside(0.005, 6.0), []
+    for how in ("line", "twice"):
+        run = couple(example.scene(), example.Storeys(), step=0.005, how=how, stop=6.0)
+        errors.append(example.error(example.left_floors(run), whole))
     by_states = next(module("couple_with_saved_states").compare())
     assert by_states[1:] == pytest.approx(errors, rel=1e-6)
     by_turns = next(module("couple_with_intermediate_update").compare())

@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | `Held` | level, at what was known at its beginning | 1 |
 //! | `Line` | goes on as it went over the step before | 2 |
-//! | `Twice` | leads to where it really ends, as a first try of the step as `Line` has shown | 2, with a smaller error |
+//! | `Twice` | leads to where it really ends, as a first try as `Line` has shown | 2, with a smaller error |
 //!
 //! The program never has to go back: it is moved once a step, to where `Held` and `Line` have come, or the first try of
 //! `Twice`.

@@ -86,7 +86,7 @@ class Runs:
 
     @property
     def has_alone(self) -> bool:
-        """Whether there is a run without contacts to compare with. A building of another program would have to be asked again."""
+        """Whether there is a run without contacts to compare with: another program would have to be asked again."""
         return bool(self.scene.contacts) and not self._scene.is_coupled()
 
     @cached_property

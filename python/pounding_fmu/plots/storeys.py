@@ -89,7 +89,8 @@ def storeys_with(runs: Runs, quantity: str) -> dict[str, list[int]]:
 
 
 def most_ductile(runs: Runs, most: int) -> dict[str, list[int]]:
-    """Of each building that has any, the storeys with the largest ductility, from below; those of another program have drifts."""
+    """Of each building that has any, the storeys with the largest ductility, or where a building is another program's the
+    largest drift, from below."""
     found = {}
     for side, own in storeys_with(runs, "storey_shear").items():
         strain = {i: strain_of(runs, side, i) for i in own}

@@ -70,7 +70,7 @@ def takes_absurd_numbers(browser):
             page.locator("#scene").fill(good.replace(old, new))
             page.wait_for_timeout(600)
             assert page.locator("#happened").inner_text().strip(), new
-            # The run may end by itself between a look at the button and a click on it: one that is disabled does nothing.
+            # The run may have ended by itself: a click on a button that is disabled does nothing.
             page.locator("#stop").evaluate("button => button.click()")
         page.locator("#scene").fill(good)
         says(page, "The scene has changed|^108 impacts")
