@@ -62,8 +62,8 @@ def simulate_batch(
             the same path or the same arrays are read once; ``None`` among them is the scene's own.
         threads: how many cases run at a time; all cores where nothing is said. The results do not depend on it.
         step: s, communication step of the FMU; one step over everything where nothing is said. With a record, and without
-            forces or corrections as ``inputs``, no value depends on it; it divides a case that is more work than one step may be (``BatchError`` says so). Otherwise the
-            FMU may be driven from outside, and its steps end there.
+            forces or corrections as ``inputs``, no value depends on it; it divides a case that is more work than one step
+            may be (``BatchError`` says so). Otherwise the FMU may be driven from outside, and its steps end there.
         stop: s, end of each case; without it the scene's ``stop_time``, else the end of its record, else 10.
         progress: called with (cases done, n) about ten times a second, and at the end.
 

@@ -128,9 +128,9 @@ def simulate(
 
     Args:
         scene: a path, a text or a dict.
-        step: s, from row to row; 0.01 where nothing is said. With a record, and without
-            forces or corrections as ``inputs``, no value depends on it. Otherwise the FMU may be driven from outside, and its steps
-            end where the rows are.
+        step: s, from row to row; 0.01 where nothing is said. With a record, and without forces or corrections as
+            ``inputs``, no value depends on it. Otherwise the FMU may be driven from outside, and its steps end where the
+            rows are.
         stop: s, time of the last row; without it the scene's ``stop_time``, else the end of the record, else 10.
         outputs: names of the columns beside ``time``: outputs of the FMU, also its frequencies and parameters. All
             outputs where nothing is said.

@@ -1,4 +1,4 @@
-"""Buildings that another program has: the same building wholly inside is the measure, and the forces of the model itself."""
+"""Buildings that another program has, beside the same building wholly inside and the forces of the model itself."""
 
 import pickle
 import warnings

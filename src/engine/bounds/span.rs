@@ -1,10 +1,10 @@
 //! A block of quantities over a span: some flights that follow each other, read at their ends
 //! (`quantities/span_rows.rs`).
 //!
-//! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation while the
-//! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, sum
-//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. What a master's pushes add to
-//! accelerations and shears at once is linear in time.
+//! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation
+//! while the load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row
+//! over q, sum |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. What a master's
+//! pushes add to accelerations and shears at once is linear in time.
 //!
 //! Loads may jump from one flight to the next: then a quantity is read with the load at the end of the one, and with that at the
 //! start of the other.

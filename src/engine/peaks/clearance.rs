@@ -1,10 +1,9 @@
 //! Segments of the record in which no peak of a block can rise, however the ground shakes in them: who reads a peak at
 //! each step need not look at the flights before.
 //!
-//! The amplitude e = sqrt(q'^2 + w^2 q^2) of a mode grows at most by its share of the integral of |ground
-//! acceleration|, and
-//! |q| <= e / w, |w^2 q + c q'| <= (w + c) e, of oscillators |q'| <= e. So a quantity stays below a sum over the modes that
-//! grows with that integral alone.
+//! The amplitude e = sqrt(q'^2 + w^2 q^2) of a mode grows at most by its share of the integral of the magnitude of the
+//! ground acceleration, and |q| <= e / w, |w^2 q + c q'| <= (w + c) e, of oscillators |q'| <= e. So a quantity stays
+//! below a sum over the modes that grows with that integral alone.
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
