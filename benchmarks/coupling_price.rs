@@ -7,7 +7,7 @@
 //! Prints a table: milliseconds for 20 s of El Centro in communication steps of 0.01 s, and quotients. The errors of such runs
 //! are those of `tests/physics/links/` and `tests/physics/soil/`: 1e-12 and below.
 
-use pounding::engine::{EnergyOutput, Model, Output, PeakOf, Point, Side};
+use pounding::engine::{BuildingId, EnergyOutput, Model, Output, PeakOf, Point};
 use pounding::scene::Package;
 use std::error::Error;
 use std::path::Path;
@@ -87,7 +87,7 @@ fn compare(
                 model.advance(&mut state, 0.01 * f64::from(step), &mut |_| ())?;
             }
             let now = model.observe(&state, point);
-            let read = [Output::Peak(PeakOf::BaseShear(Side::Left)), Output::Energy(EnergyOutput::Viscous)];
+            let read = [Output::Peak(PeakOf::BaseShear(BuildingId::LEFT)), Output::Energy(EnergyOutput::Viscous)];
             std::hint::black_box(read.map(|output| now.read(output)));
             *best = best.min(1e3 * clock.elapsed().as_secs_f64());
         }

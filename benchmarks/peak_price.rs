@@ -9,7 +9,7 @@
 //! for scenes without a record). A line a scene: milliseconds without and with peaks, their ratio, impacts, and a sum over
 //! the bits of all peaks, by which runs of two programs are compared.
 
-use pounding::engine::{Instant, Model, Output, PeakOf, Point, Side, State};
+use pounding::engine::{BuildingId, Instant, Model, Output, PeakOf, Point, State};
 use pounding::scene::Package;
 use std::error::Error;
 use std::path::Path;
@@ -84,14 +84,14 @@ fn run(
     Ok(())
 }
 
-fn floors(model: &Model) -> impl Iterator<Item = (Side, usize)> {
-    Side::BOTH.into_iter().flat_map(|side| (0..model.floors(side)).map(move |floor| (side, floor)))
+fn floors(model: &Model) -> impl Iterator<Item = (BuildingId, usize)> {
+    model.buildings().flat_map(|side| (0..model.floors(side)).map(move |floor| (side, floor)))
 }
 
 fn peaks(now: Instant<'_>) -> impl Iterator<Item = f64> {
     let of_floors = floors(now.model()).flat_map(|(side, floor)| {
         [PeakOf::Displacement(side, floor), PeakOf::Drift(side, floor), PeakOf::Acceleration(side, floor)]
     });
-    let all = of_floors.chain(Side::BOTH.map(PeakOf::BaseShear));
+    let all = of_floors.chain(now.model().buildings().map(PeakOf::BaseShear));
     all.map(move |of| now.read(Output::Peak(of)))
 }

@@ -22,7 +22,7 @@
 //! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
 //! (Linux only).
 
-use pounding::engine::{Model, Output, PeakOf, Point, Side, State};
+use pounding::engine::{Model, Output, PeakOf, Point, State};
 use pounding::scene::Package;
 use pounding::slave::{Log, Slave};
 use std::error::Error;
@@ -128,13 +128,13 @@ fn solve(
     for row in 0..=(stop / step).round() as u64 {
         model.advance(state, row as f64 * step, &mut |_| ())?;
         let now = model.observe(state, point);
-        for side in Side::BOTH {
+        for side in model.buildings() {
             readings.extend((0..model.floors(side)).map(|floor| now.read(Output::Displacement(side, floor))));
         }
     }
     if let Way::Whole = way {
         let now = model.observed(state, point);
-        for side in Side::BOTH {
+        for side in model.buildings() {
             let peak = |floor| now.read(Output::Peak(PeakOf::Displacement(side, floor)));
             readings.extend((0..model.floors(side)).map(peak));
         }

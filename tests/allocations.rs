@@ -7,7 +7,7 @@ mod common;
 use common::{Run, record, scene};
 use pounding::FmiVersion;
 use pounding::description::Package;
-use pounding::engine::{PointRates, Side};
+use pounding::engine::{BuildingId, PointRates};
 use pounding::slave::{Interface, Log, Slave};
 use pounding::variables::{Settings, Slot, Table, Value};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -50,7 +50,7 @@ fn a_search_needs_no_matrix_for_each_instant() {
         for k in 1..=100 {
             run.to(0.01 * f64::from(k));
             if reads_peaks {
-                run.peak(pounding::engine::PeakOf::Drift(Side::Right, 1));
+                run.peak(pounding::engine::PeakOf::Drift(BuildingId::RIGHT, 1));
             }
         }
         CALLS.get() - before
@@ -97,8 +97,8 @@ fn a_run_allocates_nothing_after_its_start() {
         for k in 2..=1000 {
             run.state.set_ground_acceleration(motion.accelerations[k / 2 % 500]);
             run.state.set_ground_acceleration_rate(f64::from(k as u32 % 3) - 1.0);
-            run.state.set_floor_force(Side::Left, 1, 0.1 * f64::from(k as u32 % 7));
-            run.state.set_floor_force_rate(Side::Left, 1, 2.0 - f64::from(k as u32 % 5));
+            run.state.set_floor_force(BuildingId::LEFT, 1, 0.1 * f64::from(k as u32 % 7));
+            run.state.set_floor_force_rate(BuildingId::LEFT, 1, 2.0 - f64::from(k as u32 % 5));
             run.to(k as f64 * 0.01);
             run.now().differentiate(&mut rates);
         }
@@ -124,7 +124,7 @@ fn many_modes_and_coupled_modes_allocate_nothing_either() {
     for (left, right) in [(many(3e5, 2.5e9), many(4e5, 1.5e9)), (coupled(3e5, 8e7), coupled(4e5, 4e7))] {
         let mut scene = scene(&format!("name = \"A\"\n[left]\n{left}\n[right]\n{right}\n{contact}\n"));
         scene.ground.record = Some("r.csv".into());
-        scene.peaks = scene.left.mass.len() < 45;
+        scene.peaks = scene.buildings[0].mass.len() < 45;
         let motion = record(0.01, &(0..800).map(|k| 3.0 * (f64::from(k) * 0.09).sin()).collect::<Vec<_>>());
         let mut run = Run::new(&scene, Some(&motion));
         run.episodes.reserve(10_000);

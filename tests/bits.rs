@@ -31,7 +31,8 @@ fn fingerprint(case: &Case) -> u64 {
     let mut scene = scene(&Frames { storeys, damping, gap: 0.01, law, energy, floor_forces: false }.toml());
     if yields {
         let yielding = |force: f64| Some(Yielding::new(vec![force; storeys], vec![0.05; storeys]));
-        (scene.left.yielding, scene.right.yielding) = (yielding(4e4 * storeys as f64), yielding(8e4 * storeys as f64));
+        (scene.buildings[0].yielding, scene.buildings[1].yielding) =
+            (yielding(4e4 * storeys as f64), yielding(8e4 * storeys as f64));
     }
     scene.ground.record = Some("zigzag.csv".into());
     let samples: Vec<f64> = (0..400).map(|k| zigzag(k) / 4.0).collect();

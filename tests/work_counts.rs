@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Run, record, scene};
-use pounding::engine::{Counters, Output, PeakOf, Point, Side};
+use pounding::engine::{BuildingId, Counters, Output, PeakOf, Point};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -207,7 +207,7 @@ fn floors_that_nobody_reads_are_not_worked_out() {
         }
         run.point.rows_read() - before
     };
-    let all = |side: Side, floors: usize| {
+    let all = |side: BuildingId, floors: usize| {
         let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration];
         let peaks = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
         (0..floors).flat_map(move |floor| {
@@ -215,15 +215,18 @@ fn floors_that_nobody_reads_are_not_worked_out() {
             of_floor.map(|output| output(side, floor)).into_iter().chain(peaks)
         })
     };
-    let floors: Vec<Output> = all(Side::Left, 8).chain(all(Side::Right, 12)).collect();
+    let floors: Vec<Output> = all(BuildingId::LEFT, 8).chain(all(BuildingId::RIGHT, 12)).collect();
     run.in_steps(0.003, 0.3);
     assert_eq!(run.point.rows_read(), 0, "no floor was asked for");
     assert_eq!(
-        read(&run, &[Output::Impacts, Output::BaseShear(Side::Left), Output::Peak(PeakOf::Drift(Side::Right, 1))]),
+        read(
+            &run,
+            &[Output::Impacts, Output::BaseShear(BuildingId::LEFT), Output::Peak(PeakOf::Drift(BuildingId::RIGHT, 1))]
+        ),
         0
     );
-    assert_eq!(read(&run, &[Output::Displacement(Side::Right, 1), Output::Velocity(Side::Right, 3)]), 2);
-    assert_eq!(read(&run, &[Output::Acceleration(Side::Right, 1)]), 1, "accelerations of the modes are no rows");
+    assert_eq!(read(&run, &[Output::Displacement(BuildingId::RIGHT, 1), Output::Velocity(BuildingId::RIGHT, 3)]), 2);
+    assert_eq!(read(&run, &[Output::Acceleration(BuildingId::RIGHT, 1)]), 1, "accelerations of the modes are no rows");
     assert_eq!(read(&run, &floors), 60, "displacement, velocity and acceleration of each");
     run.to(0.35);
     assert_eq!(read(&run, &floors), 60, "at another time");
@@ -233,7 +236,8 @@ fn floors_that_nobody_reads_are_not_worked_out() {
 fn with_stiff_storey(stiffness: f64, damping: &str) -> (Scene, Record) {
     let (mut scene, record) = frames(&contact(1.0));
     let storeys = format!("mass = [3.65, 3.65, 3.65]\nstiffness = [{stiffness:?}, 2910.0, 2910.0]");
-    scene.left = common::scene(&format!("name = \"W\"\n[left]\n{storeys}\ndamping = {{ {damping} }}")).left;
+    let other = common::scene(&format!("name = \"W\"\n[left]\n{storeys}\ndamping = {{ {damping} }}"));
+    scene.buildings[0] = other.buildings[0].clone();
     (scene, record)
 }
 
@@ -248,7 +252,7 @@ fn modes_that_have_settled_make_no_search_finer() {
         let mut run = Run::new(&scene, Some(&record));
         for k in 1..=500 {
             run.to(0.001 * f64::from(k));
-            run.peak(PeakOf::Drift(Side::Left, 1));
+            run.peak(PeakOf::Drift(BuildingId::LEFT, 1));
         }
         // Measured: 2300 to 10500, up to 21 a read; a search as fine as the quick mode asks for would take 700,000.
         let motions = run.point.motions_searched();
@@ -268,7 +272,7 @@ fn searches_for_peaks_that_may_have_ended_early_are_counted() {
         let scene = scene(&format!("name = \"W\"\n[left]\n{frame}\n[right]\n{frame}"));
         let mut run = Run::new(&scene, None);
         run.to(50_000.0);
-        assert!(run.peak(PeakOf::Drift(Side::Left, 1)) > 0.0);
+        assert!(run.peak(PeakOf::Drift(BuildingId::LEFT, 1)) > 0.0);
         let cut = run.point.searches_cut_short();
         assert_eq!(cut > 0, is_cut, "damping ratio {ratio}: {cut}");
     }

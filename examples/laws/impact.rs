@@ -1,7 +1,7 @@
 //! One free impact under each law, run by the engine.
 
 use pounding::contact::{DampingFormula, LawKey, LawKind, StiffnessUnit};
-use pounding::engine::{ContactPoint, Episode, Instant, Model, Output, Point, Side, State};
+use pounding::engine::{BuildingId, ContactPoint, Episode, Instant, Model, Output, Point, State};
 use pounding::scene::{Scene, law_key};
 use std::error::Error;
 
@@ -134,7 +134,7 @@ impl Impact {
     /// Speed now, when the floors part, relative to that before the impact.
     pub fn restitution(&self) -> f64 {
         let velocity = |side| self.now().read(Output::Velocity(side, 0));
-        (velocity(Side::Right) - velocity(Side::Left)) / SPEED
+        (velocity(BuildingId::RIGHT) - velocity(BuildingId::LEFT)) / SPEED
     }
 
     /// Energy lost so far, relative to the kinetic energy of the relative motion before the impact.

@@ -3,7 +3,7 @@
 use crate::archive::Entry;
 use pounding::FmiVersion;
 use pounding::description::Package;
-use pounding::scene::ContactPair;
+use pounding::scene::{BuildingId, ContactPair};
 use pounding::variables::{Causality, Row, Table, Type};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -53,8 +53,8 @@ fn page(package: &Package, version: FmiVersion) -> String {
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Two adjacent buildings of {} and {} \
          storeys under a ground motion, with {} between facing floors.</p>\n<h2>Use</h2>\n{}",
         escape(&scene.description),
-        scene.left.mass.len(),
-        scene.right.mass.len(),
+        scene.building(BuildingId::LEFT).mass.len(),
+        scene.building(BuildingId::RIGHT).mass.len(),
         match scene.contacts.len() {
             1 => "1 contact".to_owned(),
             n => format!("{n} contacts"),

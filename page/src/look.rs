@@ -3,7 +3,7 @@
 use crate::message::{Answer, Refusal};
 use crate::scene::{Given, findings};
 use pounding::record::{Column, RecordOptions, STANDARD_GRAVITY};
-use pounding::scene::{Building, Scaling, Scene, Stiffness};
+use pounding::scene::{Building, BuildingId, ContactPair, Scaling, Scene, Stiffness};
 use pounding::structure::Modes;
 use pounding_simulate::STEP;
 use pounding_simulate::layout::Layout;
@@ -22,8 +22,8 @@ pub fn look(given: &Given<'_>) -> Result<Answer, Refusal> {
         "stop": scenario.stop(),
         "stopTime": scene.stop_time,
         "layout": Layout::of(scene),
-        "left": building(&scene.left),
-        "right": building(&scene.right),
+        "left": building(scene.building(BuildingId::LEFT)),
+        "right": building(scene.building(BuildingId::RIGHT)),
         "contacts": contacts(&scenario),
         "facing": scene.facing.is_some(),
         "energy": scene.energy,
@@ -59,8 +59,10 @@ fn building(building: &Building) -> Value {
 
 /// What the law of each contact has; its gap and what meets are in the layout.
 fn contacts(scenario: &Scenario) -> Vec<Value> {
-    let pairs = scenario.settings.scene.contacts.iter();
-    pairs.map(|pair| json!({ "brief": pair.brief(), "gap": pair.gap, "law": pair.law.kind.info().name })).collect()
+    let scene = &scenario.settings.scene;
+    let of =
+        |pair: &ContactPair| json!({ "brief": pair.brief(scene), "gap": pair.gap, "law": pair.law.kind.info().name });
+    scene.contacts.iter().map(of).collect()
 }
 
 /// What the scene says about the file of its record, by the keys of the scene.

@@ -5,7 +5,7 @@
 
 use crate::job::Job;
 use crate::message::{Answer, Refusal};
-use pounding::engine::{Model, Output, PeakOf, Point, Side};
+use pounding::engine::{BuildingId, Model, Output, PeakOf, Point};
 use pounding::record::Record;
 use pounding::scene::{Building, Damping, Scene, Stiffness};
 use serde_json::json;
@@ -49,9 +49,10 @@ impl Job for Spectrum {
 fn pseudo_acceleration(scene: &Scene, record: &Record, period: f64) -> Option<f64> {
     let stiffness = (TAU / period).powi(2);
     let mut scene = scene.clone();
-    scene.left = Building::new(vec![1.0], Stiffness::Shear(vec![stiffness]), Damping::Ratios(vec![DAMPING]));
+    let (stiffness_of, damping) = (Stiffness::Shear(vec![stiffness]), Damping::Ratios(vec![DAMPING]));
+    *scene.building_mut(BuildingId::LEFT) = Building::new("left", vec![1.0], stiffness_of, damping);
     let model = Model::new(&scene, Some(record)).ok()?;
     let (mut state, mut point) = (model.start(*record.times.first()?), Point::default());
     model.advance(&mut state, record.times.last()? + period, &mut |_| {}).ok()?;
-    Some(stiffness * model.observe(&state, &mut point).read(Output::Peak(PeakOf::Displacement(Side::Left, 0))))
+    Some(stiffness * model.observe(&state, &mut point).read(Output::Peak(PeakOf::Displacement(BuildingId::LEFT, 0))))
 }

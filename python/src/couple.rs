@@ -3,7 +3,7 @@
 use crate::scene::{Scene, refusal};
 use crate::threads::caught;
 use numpy::{PyArray1, PyReadonlyArray1};
-use pounding::scene::Side;
+use pounding::scene::{BuildingId, Scene as Described};
 use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as run, stiffness_of};
 use pyo3::exceptions::{PyException, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -38,22 +38,23 @@ pub fn couple(
         _ => How::Twice,
     };
     let scenario = &scene.get().0;
+    let described = &scenario.settings.scene;
     let model = scenario.model().map_err(|error| refusal(&error))?;
     let outside = models.into_iter().map(|(is_right, model)| {
         let forces = move |displacements: &[f64]| {
             py.check_signals()?;
             forces(&model.call1((PyArray1::from_slice(py, displacements),))?, displacements.len())
         };
-        Outside { side: side(is_right), forces: Box::new(forces) }
+        Outside { building: side(is_right), forces: Box::new(forces) }
     });
-    let whole = || run(&model, &scenario.settings.scene, outside.collect(), how, (step, stop));
-    let coupled = caught(whole).map_err(PyRuntimeError::new_err)?.map_err(|failure| raised(py, failure))?;
-    let slips = coupled.stiffer.iter().map(slip).collect();
+    let whole = || run(&model, described, outside.collect(), how, (step, stop));
+    let coupled = caught(whole).map_err(PyRuntimeError::new_err)?.map_err(|failure| raised(py, described, failure))?;
+    let slips = coupled.stiffer.iter().map(|stiffer| slip(described, stiffer)).collect();
     Ok((Scene(scenario.with_corrections(coupled.corrections)), slips))
 }
 
-fn side(is_right: bool) -> Side {
-    if is_right { Side::Right } else { Side::Left }
+fn side(is_right: bool) -> BuildingId {
+    if is_right { BuildingId::RIGHT } else { BuildingId::LEFT }
 }
 
 /// The forces that a model has answered with.
@@ -80,16 +81,17 @@ fn forces(answer: &Bound<'_, PyAny>, floors: usize) -> PyResult<Vec<f64>> {
 }
 
 /// What ends a run; what a model has raised is the cause of it, but for Ctrl-C, which goes through as it is.
-fn raised(py: Python<'_>, failure: Failure<PyErr>) -> PyErr {
+fn raised(py: Python<'_>, scene: &Described, failure: Failure<PyErr>) -> PyErr {
     match failure {
         Failure::Engine(error) => PyRuntimeError::new_err(error.to_string()),
         Failure::Outside(_, error) if !error.is_instance_of::<PyException>(py) => error,
         Failure::Outside(asked, error) => {
             let (storey, drift) = asked.largest_drift();
-            let Asked { side, time, displacements } = asked;
+            let Asked { building, time, displacements } = asked;
+            let name = &scene.building(building).name;
             let said = error.value(py).to_string();
             let failed = PyRuntimeError::new_err(format!(
-                "{side}: the model failed at {time} s, with floors at {displacements:?} m and its largest drift, {drift:.3e} m, in \
+                "{name}: the model failed at {time} s, with floors at {displacements:?} m and its largest drift, {drift:.3e} m, in \
                  storey {storey}: {said}"
             ));
             failed.set_cause(py, Some(error));
@@ -98,11 +100,12 @@ fn raised(py: Python<'_>, failure: Failure<PyErr>) -> PyErr {
     }
 }
 
-fn slip(stiffer: &Stiffer) -> String {
-    let &Stiffer { side, storey, time, ratio, steps, moved: _ } = stiffer;
+fn slip(scene: &Described, stiffer: &Stiffer) -> String {
+    let &Stiffer { building, storey, time, ratio, steps, moved: _ } = stiffer;
+    let name = &scene.building(building).name;
     let of = storey.map_or_else(String::new, |storey| format!(", storey {storey}"));
     format!(
-        "{side}{of}: the model was up to {ratio:.3} times as stiff as its initial_stiffness(), in {steps} steps, first at {time} s: \
+        "{name}{of}: the model was up to {ratio:.3} times as stiff as its initial_stiffness(), in {steps} steps, first at {time} s: \
          with a stiffness that is too soft the run chatters; expected the largest that the model ever has"
     )
 }

@@ -113,9 +113,8 @@ impl Scene {
 
     /// Of the first mode of each building alone the period, s, on its soil if it has any, and the ratio of critical damping on
     /// a fixed base.
-    fn first_modes(&self) -> PyResult<[Option<(f64, f64)>; 2]> {
-        let scene = &self.0.settings.scene;
-        Ok([first_mode(&scene.left)?, first_mode(&scene.right)?])
+    fn first_modes(&self) -> PyResult<Vec<Option<(f64, f64)>>> {
+        self.0.settings.scene.buildings.iter().map(first_mode).collect()
     }
 }
 

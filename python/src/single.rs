@@ -3,7 +3,7 @@
 use crate::scene::{Scene, refusal};
 use crate::threads::work_on;
 use numpy::PyArray1;
-use pounding::engine::{Model, Side};
+use pounding::engine::{BuildingId, Model};
 use pounding_simulate::instants;
 use pounding_simulate::outcome::Follower;
 use pounding_simulate::readings::{Kind, Reading};
@@ -71,12 +71,12 @@ pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -
 }
 
 /// Which buildings another program has had, if any.
-fn coupled(Scenario { corrections, .. }: &Scenario) -> String {
-    let line = |side: Side| {
+fn coupled(Scenario { corrections, settings, .. }: &Scenario) -> String {
+    let line = |id: BuildingId| {
         let what = "its restoring forces are another program's; frequencies are of its first stiffness";
-        format!("  {:<12} {what}\n", side.to_string())
+        format!("  {:<12} {what}\n", settings.scene.building(id).name)
     };
-    corrections.sides().map(line).collect()
+    settings.scene.ids().filter(|id| corrections.are_of(*id)).map(line).collect()
 }
 
 /// What comes of work with the model of a scene, beside Python.

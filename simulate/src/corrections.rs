@@ -1,7 +1,7 @@
 //! What another program's building resists with beyond the stiffness of the scene, as it went into a run: lines over
 //! its steps.
 
-use pounding::engine::{Input, Side, State};
+use pounding::engine::{BuildingId, Input, State};
 
 /// Inputs that are linear in time from instant to instant. A run under them is the same run without the program they
 /// came from.
@@ -36,11 +36,9 @@ impl Corrections {
         self.lines.extend_from_slice(lines);
     }
 
-    /// The buildings that they are for.
-    pub fn sides(&self) -> impl Iterator<Item = Side> + '_ {
-        let is_of =
-            |side: &Side| self.inputs.iter().any(|input| matches!(input, Input::Correction(of, _) if of == side));
-        Side::BOTH.into_iter().filter(is_of)
+    /// Whether any of them is for a building.
+    pub fn are_of(&self, id: BuildingId) -> bool {
+        self.inputs.iter().any(|input| matches!(input, Input::Correction(of, _) if *of == id))
     }
 
     /// s, where lines begin, counted from 0.

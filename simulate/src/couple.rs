@@ -14,7 +14,9 @@
 
 use crate::corrections::{Corrections, Line};
 use crate::instants;
-use pounding::engine::{Collapse, EngineError, FoundationOutput, Input, Instant, Model, Output, Point, Side, State};
+use pounding::engine::{
+    BuildingId, Collapse, EngineError, FoundationOutput, Input, Instant, Model, Output, Point, State,
+};
 use pounding::scene::{Scene, Stiffness};
 
 /// By how much a building may seem stiffer than K0 over a step before it counts as stiffer: forces of other programs
@@ -43,7 +45,7 @@ pub type Answer<'a, E> = Box<dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a>;
 /// A building that another program has.
 pub struct Outside<'a, E> {
     /// Which one.
-    pub side: Side,
+    pub building: BuildingId,
     /// What it answers with.
     pub forces: Answer<'a, E>,
 }
@@ -60,7 +62,7 @@ pub enum Failure<E> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// Of which building.
-    pub side: Side,
+    pub building: BuildingId,
     /// s
     pub time: f64,
     /// m, of the floors relative to their base.
@@ -79,7 +81,7 @@ impl Asked {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stiffer {
     /// Which one.
-    pub side: Side,
+    pub building: BuildingId,
     /// The storey, counted from 1, of a shear building.
     pub storey: Option<usize>,
     /// s, when it was so for the first time.
@@ -199,7 +201,7 @@ struct Motion {
 
 impl<'a, E> End<'a, E> {
     fn of(outside: Outside<'a, E>, scene: &'a Scene) -> End<'a, E> {
-        let building = scene.building(outside.side);
+        let building = scene.building(outside.building);
         let floors = building.mass.len();
         let level = |floor| building.heights.as_ref().map_or(0.0, |heights| heights.level(floor) - heights.base_level);
         let zeros = vec![0.0; floors];
@@ -216,8 +218,8 @@ impl<'a, E> End<'a, E> {
     }
 
     fn inputs(&self) -> impl Iterator<Item = Input> + use<E> {
-        let side = self.outside.side;
-        (0..self.levels.len()).map(move |place| Input::Correction(side, place))
+        let id = self.outside.building;
+        (0..self.levels.len()).map(move |place| Input::Correction(id, place))
     }
 
     /// What goes in over the next step, as far as the last ones show it.
@@ -234,11 +236,11 @@ impl<'a, E> End<'a, E> {
 
     /// Moves the building to where the run has come in a step of this length, s.
     fn ask(&mut self, now: &Instant<'_>, length: f64) -> Result<(), Failure<E>> {
-        let (side, time) = (self.outside.side, now.time());
+        let (id, time) = (self.outside.building, now.time());
         let displacements = self.displacements(now);
         let forces = match (self.outside.forces)(&displacements) {
             Ok(forces) => forces,
-            Err(error) => return Err(Failure::Outside(Asked { side, time, displacements }, error)),
+            Err(error) => return Err(Failure::Outside(Asked { building: id, time, displacements }, error)),
         };
         let (moved, forces) = match self.stiffness {
             Stiffness::Shear(_) => (drifts(&displacements).collect(), shears(&forces)),
@@ -258,10 +260,10 @@ impl<'a, E> End<'a, E> {
 
     /// m, of the floors relative to their base, which may sway and rock.
     fn displacements(&self, now: &Instant<'_>) -> Vec<f64> {
-        let side = self.outside.side;
-        let of_base = |output| now.read(Output::Foundation(side, output));
+        let id = self.outside.building;
+        let of_base = |output| now.read(Output::Foundation(id, output));
         let (sway, rocking) = (of_base(FoundationOutput::Displacement), of_base(FoundationOutput::Rotation));
-        let of = |(floor, level): (usize, &f64)| now.read(Output::Displacement(side, floor)) - sway - level * rocking;
+        let of = |(floor, level): (usize, &f64)| now.read(Output::Displacement(id, floor)) - sway - level * rocking;
         self.levels.iter().enumerate().map(of).collect()
     }
 
@@ -297,13 +299,13 @@ impl<'a, E> End<'a, E> {
         if ratio <= STIFFER {
             return;
         }
-        let side = self.outside.side;
+        let id = self.outside.building;
         match self.stiffer.iter_mut().find(|known| known.storey == storey) {
             Some(known) => {
                 known.steps += 1;
                 (known.ratio, known.moved) = (known.ratio.max(ratio), known.moved.max(moved));
             }
-            None => self.stiffer.push(Stiffer { side, storey, time, ratio, steps: 1, moved }),
+            None => self.stiffer.push(Stiffer { building: id, storey, time, ratio, steps: 1, moved }),
         }
     }
 }

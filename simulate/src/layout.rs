@@ -1,9 +1,9 @@
-//! What stands where: the floors of both buildings with their levels, their foundations, what meets at each contact, what
+//! What stands where: the floors of the buildings with their levels, their foundations, what meets at each contact, what
 //! each link joins.
 //!
 //! Pictures are drawn from it: what faces what is worked out in one place, the scene.
 
-use pounding::scene::{Building, ContactPair, Face, Link, Place, Scene, Share, Side, Soil};
+use pounding::scene::{Building, BuildingId, ContactPair, Face, Link, Place, Scene, Share, Soil};
 use pounding::structure::period_ratio;
 use serde::Serialize;
 
@@ -13,8 +13,8 @@ pub struct Layout<'a> {
     name: &'a str,
     left: Standing,
     right: Standing,
-    contacts: Vec<Contact>,
-    links: Vec<Device>,
+    contacts: Vec<Contact<'a>>,
+    links: Vec<Device<'a>>,
 }
 
 /// A building; one without floors is not there.
@@ -37,14 +37,14 @@ struct Soils {
 }
 
 #[derive(Serialize)]
-struct Contact {
+struct Contact<'a> {
     /// What meets, in words.
     meeting: String,
-    left: Surface,
-    right: Surface,
-    /// Side and name of the variables that take part, after the dot, and how much a displacement or rotation of each adds
+    left: Surface<'a>,
+    right: Surface<'a>,
+    /// Building and name of the variables that take part, after the dot, and how much a displacement or rotation of each adds
     /// to the penetration.
-    row: Vec<(&'static str, String, f64)>,
+    row: Vec<(&'a str, String, f64)>,
     /// m
     gap: f64,
     law: &'static str,
@@ -52,12 +52,12 @@ struct Contact {
 
 /// A link.
 #[derive(Serialize)]
-struct Device {
+struct Device<'a> {
     /// What it is between, in words.
     meeting: String,
     /// Its ends: floors, of which 0 is the foundation, or the ground as a wall.
-    left: Surface,
-    right: Surface,
+    left: Surface<'a>,
+    right: Surface<'a>,
     /// What it is made of, side by side.
     parts: Vec<Part>,
 }
@@ -75,9 +75,9 @@ enum Part {
 /// What is on one side of a gap or at one end of a link.
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
-enum Surface {
-    Floor { side: &'static str, floor: usize },
-    Columns { side: &'static str, storey: usize, position: f64 },
+enum Surface<'a> {
+    Floor { side: &'a str, floor: usize },
+    Columns { side: &'a str, storey: usize, position: f64 },
     Wall,
 }
 
@@ -86,7 +86,13 @@ impl Layout<'_> {
     pub fn of(scene: &Scene) -> Layout<'_> {
         let contacts = scene.contacts.iter().map(|pair| contact(scene, pair)).collect();
         let links = scene.links.iter().map(|link| device(scene, link)).collect();
-        Layout { name: &scene.name, left: standing(&scene.left), right: standing(&scene.right), contacts, links }
+        Layout {
+            name: &scene.name,
+            left: standing(scene.building(BuildingId::LEFT)),
+            right: standing(scene.building(BuildingId::RIGHT)),
+            contacts,
+            links,
+        }
     }
 }
 
@@ -110,19 +116,20 @@ fn side_by_side(parts: [(Part, f64); 2]) -> Vec<Part> {
     parts.into_iter().filter(|(_, strength)| *strength > 0.0).map(|(part, _)| part).collect()
 }
 
-fn contact(scene: &Scene, pair: &ContactPair) -> Contact {
+fn contact<'a>(scene: &'a Scene, pair: &ContactPair) -> Contact<'a> {
+    let moves = |share: Share| (name(scene, share.building), variable_of(share.place), share.weight);
     Contact {
         meeting: pair.meeting(scene),
-        left: surface(pair.left),
-        right: surface(pair.right),
+        left: surface(scene, pair.left),
+        right: surface(scene, pair.right),
         row: pair.row(scene).map(moves).collect(),
         gap: pair.gap,
         law: pair.law.kind.info().name,
     }
 }
 
-fn moves(share: Share) -> (&'static str, String, f64) {
-    (share.side.name(), variable_of(share.place), share.weight)
+fn name(scene: &Scene, id: BuildingId) -> &str {
+    &scene.building(id).name
 }
 
 /// The name of the variable that says how far a place of a building has moved, after the building's own.
@@ -134,25 +141,26 @@ pub(crate) fn variable_of(place: Place) -> String {
     }
 }
 
-fn surface(face: Face) -> Surface {
+fn surface(scene: &Scene, face: Face) -> Surface<'_> {
     match face {
-        Face::Floor(side, floor) => Surface::Floor { side: side.name(), floor },
-        Face::Columns { side, storey, position, .. } => Surface::Columns { side: side.name(), storey, position },
+        Face::Floor(id, floor) => Surface::Floor { side: name(scene, id), floor },
+        Face::Columns { building: id, storey, position, .. } => {
+            Surface::Columns { side: name(scene, id), storey, position }
+        }
         Face::Wall => Surface::Wall,
     }
 }
 
-fn device(scene: &Scene, link: &Link) -> Device {
-    let end = |side: Side, end: Option<Place>| match end {
-        None => Surface::Wall,
-        Some(Place::Floor(floor)) => Surface::Floor { side: side.name(), floor: floor + 1 },
-        Some(Place::Foundation | Place::Rotation) => Surface::Floor { side: side.name(), floor: 0 },
+fn device<'a>(scene: &'a Scene, link: &Link) -> Device<'a> {
+    let end = |end: Option<(BuildingId, Place)>| {
+        let Some((id, place)) = end else { return Surface::Wall };
+        Surface::Floor { side: name(scene, id), floor: place.floor().map_or(0, |floor| floor + 1) }
     };
     let spring = if link.slip.is_some() { Part::Friction } else { Part::Spring };
     Device {
         meeting: link.meeting(scene),
-        left: end(Side::Left, link.left),
-        right: end(Side::Right, link.right),
+        left: end(link.left),
+        right: end(link.right),
         parts: side_by_side([(spring, link.stiffness), (Part::Dashpot, link.dashpot)]),
     }
 }

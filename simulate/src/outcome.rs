@@ -1,7 +1,7 @@
 //! What a run has shown, whoever has made it: an importer of an FMU, or the engine.
 
 use crate::readings::Reading;
-use pounding::engine::{Instant, Output, Side};
+use pounding::engine::{Instant, Output};
 use pounding::variables::{Causality, Settings, Table};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -109,7 +109,7 @@ impl Follower {
     pub fn look(&mut self, now: &Instant<'_>) {
         let Experiment { stop, step, .. } = self.experiment;
         let time = now.time();
-        let has_collapsed = Side::BOTH.iter().any(|side| now.read(Output::Collapsed(*side)) != 0.0);
+        let has_collapsed = now.model().buildings().any(|id| now.read(Output::Collapsed(id)) != 0.0);
         if has_collapsed {
             self.end = time;
         }

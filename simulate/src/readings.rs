@@ -1,6 +1,6 @@
 //! What is read of a run, by value reference.
 
-use pounding::engine::{Input, Instant, Output, Side};
+use pounding::engine::{BuildingId, Input, Instant, Output};
 use pounding::variables::{Calculated, Settings, Slot, Table, Type};
 
 /// A numeric variable.
@@ -9,7 +9,7 @@ pub enum Reading {
     /// Changes in the course of a run.
     Computed(Output, Kind),
     /// Hz, of the model.
-    Frequency(Side, usize),
+    Frequency(BuildingId, usize),
     /// Hz, of the model with its links.
     SystemFrequency(usize),
     /// What is set from outside.
@@ -35,7 +35,7 @@ impl Reading {
         let row = table.row(reference)?;
         Some(match row.slot {
             Slot::Output(output) => Reading::Computed(output, Kind::of(row.ty)?),
-            Slot::Calculated(Calculated::Frequency(side, mode)) => Reading::Frequency(side, mode),
+            Slot::Calculated(Calculated::Frequency(id, mode)) => Reading::Frequency(id, mode),
             Slot::Calculated(Calculated::SystemFrequency(mode)) => Reading::SystemFrequency(mode),
             Slot::Calculated(calculated) => Reading::Constant(settings.calculate(calculated)),
             Slot::Input(input) => Reading::Input(input),
@@ -52,7 +52,7 @@ impl Reading {
     pub fn at(self, now: &Instant<'_>) -> f64 {
         match self {
             Reading::Computed(output, _) => now.read(output),
-            Reading::Frequency(side, mode) => now.model().natural_frequencies(side)[mode],
+            Reading::Frequency(id, mode) => now.model().natural_frequencies(id)[mode],
             Reading::SystemFrequency(mode) => now.model().system_frequencies()[mode],
             Reading::Input(input) => now.input(input),
             Reading::Constant(value) => value,

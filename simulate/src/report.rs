@@ -97,8 +97,12 @@ pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Res
         description: &scene.description,
         scene: scene_text,
         stop: times.last().copied().unwrap_or(stop),
-        collapse: events.collapse.map(|Collapse { side, storey, .. }| {
-            format!("storey {} of the {side} building collapsed, and the run ends there", storey + 1)
+        collapse: events.collapse.map(|Collapse { building: id, storey, .. }| {
+            format!(
+                "storey {} of the {} building collapsed, and the run ends there",
+                storey + 1,
+                scene.building(id).name
+            )
         }),
         times,
         columns,

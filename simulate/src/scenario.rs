@@ -5,7 +5,7 @@ use crate::corrections::Corrections;
 use pounding::description::Package;
 use pounding::engine::Model;
 use pounding::record::Record;
-use pounding::scene::{Problem, Scene, SceneError, Side, Stiffness};
+use pounding::scene::{BuildingId, Problem, SceneError, Stiffness};
 use pounding::variables::{Parameter, Settings, Slot, Table, Value};
 use pounding::warnings::{self, Warning};
 use std::sync::Arc;
@@ -80,16 +80,16 @@ impl Scenario {
     ///
     /// # Errors
     /// Everything that is wrong with it then.
-    pub fn with_outside(&self, stiffness: Vec<(Side, Stiffness)>) -> Result<Scenario, SceneError> {
+    pub fn with_outside(&self, stiffness: Vec<(BuildingId, Stiffness)>) -> Result<Scenario, SceneError> {
         let mut settings = self.settings.clone();
-        if let Some((side, _)) = stiffness.iter().find(|(side, _)| settings.scene.building(*side).mass.is_empty()) {
+        let mut outside = stiffness.iter().map(|(id, _)| settings.scene.building(*id));
+        if let Some(absent) = outside.find(|building| building.is_absent()) {
             let expected = "masses of a building, whose storeys a model can have";
-            return Err(Problem::new(side.to_string(), "", expected).into());
+            return Err(Problem::new(&absent.name, "", expected).into());
         }
         settings.scene.restoring_corrections = true;
-        for (side, stiffness) in stiffness {
-            let Scene { left, right, .. } = &mut settings.scene;
-            let building = if side == Side::Left { left } else { right };
+        for (id, stiffness) in stiffness {
+            let building = settings.scene.building_mut(id);
             (building.stiffness, building.yielding) = (stiffness, None);
         }
         settings.check()?;

@@ -5,7 +5,7 @@ use crate::outcome::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
 use pounding::record::Record;
-use pounding::scene::{Building, Heights, Places, Scene, Side};
+use pounding::scene::{Building, Heights, Places, Scene};
 use pounding::variables::{Parameter, Settings};
 use pounding::warnings::six_decimals;
 use std::fmt::Write;
@@ -102,12 +102,21 @@ fn overview(run: &Run, problem: Option<Problem<'_>>, stop_reason: &str) -> Strin
     text
 }
 
-const SIDES: [&str; 2] = ["left", "right"];
+/// The names of the buildings of a scene, from left to right; of an unknown one those of two.
+pub(crate) fn names(scene: Option<&Scene>) -> impl Iterator<Item = &str> + Clone {
+    let of_scene = scene.into_iter().flat_map(|scene| &scene.buildings).map(|building| &*building.name);
+    of_scene.chain(["left", "right"].into_iter().filter(move |_| scene.is_none()))
+}
 
 /// The run by the names of the FMU's variables. What an FMU does not have is left out.
 struct Run<'a>(&'a Outcome, Option<&'a Scene>);
 
 impl Run<'_> {
+    /// The names of the buildings, from left to right.
+    fn names(&self) -> impl Iterator<Item = &str> + Clone {
+        names(self.1)
+    }
+
     fn seen(&self, name: &str) -> Option<Seen> {
         self.0.seen.get(name).copied()
     }
@@ -132,13 +141,13 @@ impl Run<'_> {
 
     /// Whether the FMU knows its peaks; otherwise what has been read has to do.
     fn has_peaks(&self) -> bool {
-        SIDES.iter().any(|side| self.count(&format!("{side}.peak_displacement")) > 0)
+        self.names().any(|side| self.count(&format!("{side}.peak_displacement")) > 0)
     }
 
     /// What has ended the run before its time.
     fn collapse(&self) -> Option<String> {
         let last = |name: String| self.seen(&name).map(|seen| seen.last);
-        let side = SIDES.into_iter().find(|side| last(format!("{side}.collapsed")) == Some(1.0))?;
+        let side = self.names().find(|side| last(format!("{side}.collapsed")) == Some(1.0))?;
         let time = six_decimals(last(format!("{side}.collapse_time"))?);
         let storey = self.fallen(side).map_or("a storey".to_owned(), |storey| format!("storey {storey}"));
         Some(format!("{storey} of the {side} building collapsed at {time} s; the run ends there"))
@@ -159,16 +168,14 @@ impl Run<'_> {
     }
 
     fn building(&self, side: &str) -> Option<&Building> {
-        let scene = self.1?;
-        Some(if side == Side::Left.name() { &scene.left } else { &scene.right })
+        self.1?.buildings.iter().find(|building| building.name == side)
     }
 
     fn floors(&self) -> Option<Table> {
         let heading = |quantity: &str| format!("{} {quantity}", if self.has_peaks() { "peak" } else { "largest" });
         let headings = [heading("displacement"), heading("acceleration")];
         let mut columns = vec![("floor", "")];
-        let levels = SIDES.map(|side| self.levels(side));
-        let has_levels = levels.iter().any(Option::is_some);
+        let has_levels = self.names().any(|name| self.levels(name).is_some());
         if has_levels {
             columns.push(("level", "m"));
         }
@@ -180,7 +187,8 @@ impl Run<'_> {
             columns.push(("over its height", ""));
         }
         let mut table = Table::new(&columns);
-        for (side, levels) in SIDES.into_iter().zip(levels) {
+        for side in self.names() {
+            let levels = self.levels(side);
             for floor in 1..=self.count(&format!("{side}.displacement")) {
                 let number = |quantity: &str, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
                 let largest = |quantity: &str| match self.has_peaks() {
@@ -212,9 +220,9 @@ impl Run<'_> {
 
     fn buildings(&self) -> Option<Table> {
         let shear = |side: &str| self.seen(&format!("{side}.peak_base_shear")).map(|seen| seen.last);
-        let scale = Scale::of("N", SIDES.into_iter().filter_map(shear));
+        let scale = Scale::of("N", self.names().filter_map(shear));
         let mut table = Table::new(&[("building", ""), ("peak base shear", &scale.unit)]);
-        for side in SIDES {
+        for side in self.names() {
             if let Some(shear) = shear(side) {
                 table.row([side.into(), scale.cell(shear)]);
             }
@@ -225,7 +233,7 @@ impl Run<'_> {
     /// Foundations: how much the soil slows their buildings, how far they have gone and turned, and what the soil has carried.
     fn foundations(&self) -> Option<Table> {
         let last = |side: &str, quantity: &str| self.seen(&format!("{side}.foundation.{quantity}")).map(|s| s.last);
-        let scale = |quantity: &str, unit: &str| Scale::of(unit, SIDES.iter().filter_map(|side| last(side, quantity)));
+        let scale = |quantity: &str, unit: &str| Scale::of(unit, self.names().filter_map(|side| last(side, quantity)));
         let (force, moment) = (scale("peak_force", "N"), scale("peak_moment", "N m"));
         let milliradians = Scale { unit: "mrad".into(), size: 1e-3 };
         let peaks = [
@@ -235,11 +243,11 @@ impl Run<'_> {
             ("peak moment", "peak_moment", moment),
         ];
         // A way in which no foundation moves has no column.
-        let known: Vec<_> = peaks.iter().filter(|(_, name, _)| SIDES.iter().any(|s| last(s, name).is_some())).collect();
+        let known: Vec<_> = peaks.iter().filter(|(_, name, _)| self.names().any(|s| last(s, name).is_some())).collect();
         let mut columns = vec![("foundation", ""), ("period ratio", "")];
         columns.extend(known.iter().map(|(heading, _, scale)| (*heading, scale.unit.as_str())));
         let mut table = Table::new(&columns);
-        for side in SIDES {
+        for side in self.names() {
             let Some(ratio) = last(side, "period_ratio") else { continue };
             let mut row = vec![side.to_owned(), digits(ratio)];
             row.extend(known.iter().map(|(_, name, scale)| last(side, name).map_or(String::new(), |v| scale.cell(v))));
@@ -255,7 +263,7 @@ impl Run<'_> {
         let scale = |quantity, unit| Scale::of(unit, contacts.clone().filter_map(|contact| last(contact, quantity)));
         let scaled = [("peak_force", "N"), ("impulse", "N s"), ("dissipated_energy", "J")];
         let scales = scaled.map(|(quantity, unit)| scale(quantity, unit));
-        let meetings = self.1.map_or(&[][..], |scene| &scene.contacts);
+        let meeting = |contact: usize| Some(self.1?.contacts.get(contact - 1)?.brief(self.1?));
         let mut table = Table::new(&[
             ("contact", ""),
             ("gap", "m"),
@@ -269,7 +277,7 @@ impl Run<'_> {
             let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
             let scaled = |k: usize| last(contact, scaled[k].0).map_or(String::new(), |value| scales[k].cell(value));
             let gap = self.seen(&format!("contact[{contact}].gap"));
-            let meeting = meetings.get(contact - 1).map_or(String::new(), |pair| format!(": {}", pair.brief()));
+            let meeting = meeting(contact).map_or(String::new(), |meeting| format!(": {meeting}"));
             table.row([
                 format!("{contact}{meeting}"),
                 gap.map_or(String::new(), |seen| format!("{}", seen.last)),
@@ -286,7 +294,7 @@ impl Run<'_> {
     /// Storeys that can yield: what they were given, and how far they have gone.
     fn yielding(&self) -> Option<Table> {
         let last = |name: String| self.seen(&name).map(|seen| seen.last);
-        let storeys = SIDES.into_iter().flat_map(|side| {
+        let storeys = self.names().flat_map(|side| {
             let of_storey = move |quantity: &str, storey: usize| last(format!("{side}.{quantity}[{storey}]"));
             (1..=self.count(&format!("{side}.displacement"))).filter_map(move |storey| {
                 let force = of_storey("yield_force", storey)?;
@@ -316,7 +324,7 @@ impl Run<'_> {
     /// What slabs do to columns, beside what the storey carries anyway: bending of the columns is not in the model.
     fn struck_columns(&self) -> Option<Table> {
         let last = |name: String| self.seen(&name).map(|seen| seen.last);
-        let storeys = SIDES.into_iter().flat_map(|side| {
+        let storeys = self.names().flat_map(|side| {
             let of_storey = move |quantity: &str, storey: usize| last(format!("{side}.{quantity}[{storey}]"));
             (1..=self.count(&format!("{side}.displacement"))).filter_map(move |storey| {
                 let force = of_storey("peak_column_force", storey)?;
@@ -340,6 +348,7 @@ impl Run<'_> {
     /// Links: how far their ends have come nearer or gone apart, what they have pushed and pulled with, and what they have taken.
     fn links(&self) -> Option<Table> {
         let last = |link: usize, quantity: &str| self.seen(&format!("link[{link}].{quantity}")).map(|seen| seen.last);
+        let between = |link: usize| Some(self.1?.links.get(link - 1)?.brief(self.1?));
         let links = 1..=(1..).take_while(|link| last(*link, "force").is_some()).count();
         let all = |quantity: &'static str| links.clone().filter_map(move |link| last(link, quantity));
         let (force, energy) = (Scale::of("N", all("peak_force")), Scale::of("J", all("dissipated_energy")));
@@ -358,8 +367,8 @@ impl Run<'_> {
         for link in links {
             let cell = |quantity: &str| last(link, quantity).map_or(String::new(), digits);
             let scaled = |quantity: &str, scale: &Scale| last(link, quantity).map_or(String::new(), |v| scale.cell(v));
-            let between = self.1.and_then(|scene| scene.links.get(link - 1)).map(|of| format!(": {}", of.brief()));
-            let mut row = vec![format!("{link}{}", between.unwrap_or_default())];
+            let between = between(link).map_or(String::new(), |between| format!(": {between}"));
+            let mut row = vec![format!("{link}{between}")];
             if self.has_peaks() {
                 row.extend([cell("peak_displacement"), scaled("peak_force", &force)]);
             }

@@ -1,16 +1,17 @@
 //! What went into a run, for a person to compare with what was meant: ground motion, masses, periods, gaps.
 
 use crate::outcome::{Outcome, Seen};
-use crate::summary::Problem;
+use crate::summary::{Problem, names};
 use pounding::record::{Record, STANDARD_GRAVITY};
 use pounding::scene::Scaling;
 use pounding::warnings::short;
 
 /// Name and text of each line. The ground motion is known where the problem is.
-pub fn lines(outcome: &Outcome, problem: Option<Problem<'_>>) -> Vec<(&'static str, String)> {
+pub fn lines<'a>(outcome: &Outcome, problem: Option<Problem<'a>>) -> Vec<(&'a str, String)> {
     let mut lines = problem.map_or_else(Vec::new, ground);
-    let buildings = ["left", "right"].into_iter().filter(|side| array(outcome, side, "displacement").next().is_some());
-    lines.extend(buildings.map(|side| (side, building(outcome, side))));
+    let names = names(problem.map(|problem| problem.scene));
+    let buildings = names.filter(|name| array(outcome, name, "displacement").next().is_some());
+    lines.extend(buildings.map(|name| (name, building(outcome, name))));
     lines.push(("contacts", contacts(outcome)));
     lines.extend(links(outcome).map(|links| ("links", links)));
     lines

@@ -9,7 +9,7 @@ use crate::engine::error::{EngineError, GivenUp};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::State;
-use crate::structure::{LANES, Side};
+use crate::structure::{BuildingId, LANES};
 
 impl Model {
     /// Refuses a state with numbers that are not finite.
@@ -165,15 +165,18 @@ impl Model {
 
     /// The message's part on the building with the fastest mode.
     fn quick(&self) -> String {
-        let fastest = |side: Side| {
-            let range = self.system.structure.body(side).range.clone();
+        let fastest = |id: BuildingId| {
+            let range = self.system.structure.body(id).range.clone();
             let omega =
                 self.system.structure.omega2[range.clone()].iter().fold(0.0_f64, |most, w2| most.max(w2.sqrt()));
             (omega, self.system.structure.damping[range].iter().fold(0.0_f64, |most, c| most.max(*c)))
         };
-        let [left, right] = Side::BOTH.map(fastest);
-        let (name, (omega, damping)) =
-            if left.0.max(left.1) >= right.0.max(right.1) { ("left", left) } else { ("right", right) };
+        let buildings = self.system.names.iter().zip(self.system.structure.ids().map(fastest));
+        let most = |(_, (omega, damping)): &(&String, (f64, f64))| omega.max(*damping);
+        // Of equal ones the first.
+        let quickest = buildings.reduce(|one, other| if most(&one) >= most(&other) { one } else { other });
+        debug_assert!(quickest.is_some(), "a scene has buildings");
+        let Some((name, (omega, damping))) = quickest else { return String::new() };
         match damping > 2.0 * omega {
             true => {
                 format!("the damping of the {name} building is stiff (up to {damping:.1e} 1/s): lower {name}.damping")

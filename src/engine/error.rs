@@ -1,7 +1,6 @@
 //! The errors of a run that the engine cannot continue, and of a state that it cannot restore.
 
 use crate::figures::plain;
-use crate::structure::Side;
 
 /// A run that cannot be continued, or a state that cannot be restored. The message has the numbers and, of a run, the
 /// remedy: the key of the scene to change.
@@ -57,10 +56,10 @@ pub enum EngineError {
         contact: usize,
     },
     /// A saved state in which a storey that can yield cannot be as it is.
-    #[error("not a state of this scene: storey {} of the {side} building is in no state that it can have", .storey + 1)]
+    #[error("not a state of this scene: storey {} of the {building} building is in no state that it can have", .storey + 1)]
     ImpossibleStorey {
-        /// Of which building.
-        side: Side,
+        /// The name of its building.
+        building: String,
         /// Counted from 0.
         storey: usize,
     },

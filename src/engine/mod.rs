@@ -1,10 +1,10 @@
-//! The engine: event-driven integration of two buildings with contacts.
+//! The engine: event-driven integration of buildings with contacts.
 //!
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`], which
 //! an [`Instant`] shows.
 //!
 //! ```
-//! use pounding::engine::{Model, Output, Point, Side};
+//! use pounding::engine::{BuildingId, Model, Output, Point};
 //! use pounding::scene::Scene;
 //!
 //! // 1 t at 0.5 m/s and 2 t at rest, 10 mm apart, on springs that hardly hold them.
@@ -38,7 +38,7 @@
 //! assert!((impacts[0].start - 0.02).abs() < 1e-8);
 //! assert!((impacts[0].separation_velocity - 0.65 * 0.5).abs() < 1e-8);
 //! // What the floors have after an impact with e = 0.65, by momentum.
-//! assert!((now.read(Output::Velocity(Side::Left, 0)) - (0.5 - 1.65 * 0.5 * 2.0 / 3.0)).abs() < 1e-6);
+//! assert!((now.read(Output::Velocity(BuildingId::LEFT, 0)) - (0.5 - 1.65 * 0.5 * 2.0 / 3.0)).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -96,4 +96,4 @@ pub use crate::engine::quantities::storeys::StoreyPeak;
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
 pub use crate::engine::window::kernels::window_tables;
-pub use crate::structure::Side;
+pub use crate::structure::BuildingId;

@@ -13,7 +13,7 @@ use crate::engine::window::kernels::Windows;
 use crate::numerics::identity::next_identity;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};
-use crate::structure::{LANES, Side, Structure};
+use crate::structure::{Body, BuildingId, LANES, Structure};
 use std::f64::consts::PI;
 
 /// The scene, prepared for the engine; constant during a run.
@@ -31,8 +31,8 @@ pub struct Model {
     pub(in crate::engine) windows: Result<Windows, Refusal>,
     pub(in crate::engine) watched: Watched,
     pub(in crate::engine) storeys: Storeys,
-    /// Natural frequencies of the left and the right building, ascending, Hz.
-    pub(in crate::engine) frequencies: [Vec<f64>; 2],
+    /// Natural frequencies of each building, ascending, Hz.
+    pub(in crate::engine) frequencies: Vec<Vec<f64>>,
     /// Those of all bodies, ascending, Hz.
     pub(in crate::engine) system_frequencies: Vec<f64>,
     /// Limit on the work of one communication step, in flights.
@@ -53,7 +53,7 @@ impl Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
             watched: Watched::of(structure, system.pushes(), scene.peaks),
-            frequencies: Side::BOTH.map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
+            frequencies: structure.ids().map(|id| frequencies(&structure.modes(id).omega)).collect(),
             system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
             inputs: Inputs::new(scene),
@@ -78,9 +78,14 @@ impl Model {
         }
     }
 
+    /// Which buildings there are, from left to right.
+    pub fn buildings(&self) -> impl DoubleEndedIterator<Item = BuildingId> + Clone + use<> {
+        self.system.structure.ids()
+    }
+
     /// Number of floors of a building.
-    pub fn floors(&self, side: Side) -> usize {
-        self.system.structure.floors(side)
+    pub fn floors(&self, id: BuildingId) -> usize {
+        self.system.structure.floors(id)
     }
 
     /// Number of contacts.
@@ -89,10 +94,15 @@ impl Model {
     }
 }
 
+/// Frequencies, Hz, of rates in rad/s.
+fn frequencies(omega: &[f64]) -> Vec<f64> {
+    omega.iter().map(|w| w / (2.0 * PI)).collect()
+}
+
 /// Natural frequencies of all bodies, ascending, Hz.
 fn system_frequencies(structure: &Structure) -> Vec<f64> {
-    let of_bodies = structure.bodies.iter().flat_map(|body| body.modes.omega.iter());
-    let mut frequencies: Vec<f64> = of_bodies.map(|omega| omega / (2.0 * PI)).collect();
-    frequencies.sort_by(f64::total_cmp);
-    frequencies
+    let of_body = |body: &Body| frequencies(&body.modes.omega);
+    let mut all: Vec<f64> = structure.bodies.iter().flat_map(of_body).collect();
+    all.sort_by(f64::total_cmp);
+    all
 }

@@ -199,7 +199,9 @@ impl Model {
             let has_flowed = element.furthest >= element.plastic.abs() && element.cumulative.value >= 0.0;
             if !(is_within && is_at_limit && has_flowed && (element.yields.is_none() || element.turned.is_none())) {
                 return Err(match of.place {
-                    ElementOf::Storey(side, storey) => EngineError::ImpossibleStorey { side, storey },
+                    ElementOf::Storey(id, storey) => {
+                        EngineError::ImpossibleStorey { building: self.system.names[id.index()].clone(), storey }
+                    }
                     ElementOf::Link(link) => EngineError::ImpossibleLink { link },
                 });
             }

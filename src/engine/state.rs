@@ -13,7 +13,7 @@ use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// Everything that changes during a run.
 ///
@@ -24,7 +24,7 @@ use crate::structure::Side;
 /// Where a master drives the ground or the floors, it sets them between two calls of [`Model::advance`]:
 ///
 /// ```
-/// use pounding::engine::{Input, Model, Output, Point, Side};
+/// use pounding::engine::{BuildingId, Input, Model, Output, Point};
 ///
 /// # let scene = pounding::scene::Scene::from_toml(
 /// #     "name = \"Mast\"\n\
@@ -37,7 +37,7 @@ use crate::structure::Side;
 /// let now = model.observe(&state, &mut point);
 /// // The mast swings with 10 rad/s about the displacement at which its spring takes the ground along.
 /// let exact = -1.0 / 100.0 * (1.0 - f64::cos(10.0 * 0.05));
-/// assert!((now.read(Output::Displacement(Side::Left, 0)) - exact).abs() < 1e-15);
+/// assert!((now.read(Output::Displacement(BuildingId::LEFT, 0)) - exact).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -129,13 +129,13 @@ impl State {
 
     /// Sets the force on a floor, counted from 0, N, at the present time; used only where the scene has floor forces.
     /// It is constant from now on, unless a rate is set for the same time.
-    pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
-        self.set_input(Input::Force(side, floor), force);
+    pub fn set_floor_force(&mut self, id: BuildingId, floor: usize, force: f64) {
+        self.set_input(Input::Force(id, floor), force);
     }
 
     /// Sets the rate of the force on a floor, N/s, from now on until the force or its rate is set again.
-    pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
-        self.set_input_rate(Input::Force(side, floor), rate);
+    pub fn set_floor_force_rate(&mut self, id: BuildingId, floor: usize, rate: f64) {
+        self.set_input_rate(Input::Force(id, floor), rate);
     }
 }
 

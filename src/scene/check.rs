@@ -2,11 +2,12 @@
 //!
 //! Where the number of floors is unknown (no mass at all, a problem by itself) nothing is compared with it.
 
+use super::building_id::BuildingId;
 use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
 use super::link::Link;
-use super::place::{Place, Share};
+use super::place::Place;
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
@@ -44,11 +45,11 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     let mut check = Checker::new(scene.units);
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
-    check.building("left", &scene.left);
-    let is_needed = scene.contacts.iter().any(|pair| pair.is_with(Side::Right))
-        || scene.links.iter().any(|link| link.right.is_some());
-    if !scene.right.is_absent() || is_needed {
-        check.building("right", &scene.right);
+    let is_wanted = |(id, building): &(BuildingId, &Building)| {
+        *id == BuildingId::LEFT || !building.is_absent() || scene.is_met(*id)
+    };
+    for (_, building) in scene.ids().zip(&scene.buildings).filter(is_wanted) {
+        check.building(&building.name, building);
     }
     check.ground(&scene.ground);
     for (i, pair) in scene.contacts.iter().enumerate() {
@@ -174,8 +175,9 @@ impl Checker {
     }
 
     fn contact(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
-        self.face(path, pair.left, scene);
-        self.face(path, pair.right, scene);
+        for side in Side::BOTH {
+            self.face(path, (pair.key_side(side), pair.face(side)), scene);
+        }
         self.number(format_args!("{path}.gap"), pair.gap, rule::GAP);
         self.no_overlap(path, pair, scene);
         self.law(path, &pair.law);
@@ -198,26 +200,27 @@ impl Checker {
     }
 
     /// Whether a building has that floor or storey, and where its columns are hit.
-    fn face(&mut self, path: &str, face: Face, scene: &Scene) {
-        let (side, number, what) = match face {
-            Face::Floor(side, floor) => (side, floor, "floor"),
-            Face::Columns { side, storey, position, .. } => {
+    fn face(&mut self, path: &str, (side, face): (Side, Face), scene: &Scene) {
+        let (id, number, what) = match face {
+            Face::Floor(id, floor) => (id, floor, "floor"),
+            Face::Columns { building: id, storey, position, .. } => {
                 self.number(format_args!("{path}.{side}_position"), position, rule::POSITION);
-                (side, storey, "storey")
+                (id, storey, "storey")
             }
             Face::Wall => return,
         };
-        self.floor(path, side, number, what, scene);
+        self.floor(path, (side, id), number, what, scene);
     }
 
     /// Whether a building has that floor or storey, counted from 1; `what` says which of both it is.
-    fn floor(&mut self, path: &str, side: Side, number: usize, what: &str, scene: &Scene) {
-        let floors = scene.building(side).mass.len();
+    fn floor(&mut self, path: &str, (side, id): (Side, BuildingId), number: usize, what: &str, scene: &Scene) {
+        let Building { name, mass, .. } = scene.building(id);
+        let floors = mass.len();
         if number >= 1 && (floors == 0 || number <= floors) {
             return;
         }
         let range = if floors == 0 { "from 1 on".to_owned() } else { format!("from 1 to {floors}") };
-        let expected = format!("a {what} of the {side} building, {range}");
+        let expected = format!("a {what} of the {name} building, {range}");
         self.refuse(format_args!("{path}.{side}_{what}"), number.to_string(), expected);
     }
 
@@ -229,7 +232,7 @@ impl Checker {
     }
 
     fn count(&mut self, path: &str, what: &str, count: usize, scene: &Scene) {
-        let floors = scene.left.mass.len() + scene.right.mass.len();
+        let floors: usize = scene.buildings.iter().map(|building| building.mass.len()).sum();
         if count.saturating_mul(floors) > rule::MOST_CONTACTS_TIMES_FLOORS {
             let most = rule::MOST_CONTACTS_TIMES_FLOORS / floors;
             self.refuse(path, "", format!("at most {most} {what} where there are {floors} floors, not {count}"));
@@ -237,10 +240,11 @@ impl Checker {
     }
 
     fn link(&mut self, path: &str, link: &Link, scene: &Scene) {
-        for Share { side, place, .. } in link.ends() {
-            match place {
-                Place::Floor(floor) => self.floor(path, side, floor + 1, "floor", scene),
-                Place::Foundation | Place::Rotation => self.held_foundation(path, side, scene),
+        for (side, end) in Side::BOTH.into_iter().zip([link.left, link.right]) {
+            match end {
+                Some((id, Place::Floor(floor))) => self.floor(path, (side, id), floor + 1, "floor", scene),
+                Some((id, Place::Foundation | Place::Rotation)) => self.held_foundation(path, (side, id), scene),
+                None => {}
             }
         }
         self.number(format_args!("{path}.stiffness"), link.stiffness, rule::LINK_STIFFNESS);
@@ -252,13 +256,14 @@ impl Checker {
     }
 
     /// Whether a link at floor 0 has something to move.
-    fn held_foundation(&mut self, path: &str, side: Side, scene: &Scene) {
-        let why = match &scene.building(side).foundation {
+    fn held_foundation(&mut self, path: &str, (side, id): (Side, BuildingId), scene: &Scene) {
+        let Building { name, foundation, .. } = scene.building(id);
+        let why = match foundation {
             Some(foundation) if foundation.sway.is_some() => return,
             Some(_) => "that of the building does not sway",
             None => "the building has none: the ground is a wall",
         };
-        let expected = format!("a floor of the {side} building, counted from 1; 0 is the foundation, and {why}");
+        let expected = format!("a floor of the {name} building, counted from 1; 0 is the foundation, and {why}");
         self.refuse(format_args!("{path}.{side}_floor"), "0", expected);
     }
 
@@ -283,19 +288,20 @@ fn with_folders(name: &str) -> String {
 }
 
 /// The key of a scene that a face has, and its number; none for a wall.
-fn key(face: Face) -> Option<(Side, &'static str, usize)> {
+fn key(face: Face) -> Option<(BuildingId, &'static str, usize)> {
     match face {
-        Face::Floor(side, floor) => Some((side, "floor", floor)),
-        Face::Columns { side, storey, .. } => Some((side, "storey", storey)),
+        Face::Floor(id, floor) => Some((id, "floor", floor)),
+        Face::Columns { building: id, storey, .. } => Some((id, "storey", storey)),
         Face::Wall => None,
     }
 }
 
 /// What meets, as a scene has it.
 fn written(pair: &ContactPair) -> String {
-    let key = |face, side| match key(face) {
-        Some((side, key, number)) => format!("{side}_{key} {number}"),
-        None => format!("wall {}", problem::quoted(side)),
+    let written = |side: Side| match key(pair.face(side)) {
+        Some((_, key, number)) => format!("{}_{key} {number}", pair.key_side(side)),
+        None => format!("wall {}", problem::quoted(side.name())),
     };
-    format!("{}, {}", key(pair.left, "left"), key(pair.right, "right"))
+    let [left, right] = Side::BOTH.map(written);
+    format!("{left}, {right}")
 }

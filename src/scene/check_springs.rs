@@ -15,10 +15,10 @@ impl Checker {
     /// Whether what slips has a spring, and none of links and soil is more than [`MOST`] times as stiff as the softest
     /// storey.
     pub(super) fn springs(&mut self, scene: &Scene) {
-        if scene.links.is_empty() && scene.left.foundation.is_none() && scene.right.foundation.is_none() {
+        if scene.links.is_empty() && scene.buildings.iter().all(|building| building.foundation.is_none()) {
             return;
         }
-        let softest = softest(&scene.left).min(softest(&scene.right));
+        let softest = scene.buildings.iter().map(softest).fold(f64::INFINITY, f64::min);
         for (l, link) in scene.links.iter().enumerate() {
             if link.slip.is_some() && link.stiffness == 0.0 {
                 let expected = "a stiffness > 0, that of the spring that slips";
@@ -26,14 +26,14 @@ impl Checker {
             }
             self.spring(format_args!("link[{}].stiffness", l + 1), link.stiffness, softest, "N/m");
         }
-        for (side, building) in [("left", &scene.left), ("right", &scene.right)] {
+        for building in &scene.buildings {
             let Some(foundation) = &building.foundation else { continue };
             let height: f64 = building.heights.iter().flat_map(|heights| &heights.storeys).sum();
             let soils =
                 [(foundation.sway, "sway", 1.0, "N/m"), (foundation.rocking, "rocking", height * height, "N m/rad")];
             for (soil, way, lever, unit) in soils {
                 let Some(soil) = soil else { continue };
-                let path = format_args!("{side}.foundation.{way}.stiffness");
+                let path = format_args!("{}.foundation.{way}.stiffness", building.name);
                 self.spring(path, soil.stiffness, softest * lever, unit);
             }
         }

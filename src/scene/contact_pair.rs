@@ -1,5 +1,6 @@
 //! What meets at a contact: a floor of one building with a floor or the columns of the other, or with a wall.
 
+use super::building_id::BuildingId;
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
@@ -21,11 +22,11 @@ pub struct ContactPair {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     /// The edge of a floor, counted from 1.
-    Floor(Side, usize),
+    Floor(BuildingId, usize),
     /// The columns of a storey, counted from 1, between two floors.
     Columns {
         /// Whose columns.
-        side: Side,
+        building: BuildingId,
         /// Storey `i` is below floor `i`.
         storey: usize,
         /// Where they are hit, as a share of the storey's height from its lower end: 0 < s < 1.
@@ -72,15 +73,33 @@ impl ColumnShape {
 
 impl Face {
     /// The building, if it belongs to one.
-    pub const fn side(&self) -> Option<Side> {
+    pub const fn building(&self) -> Option<BuildingId> {
         match self {
-            Face::Floor(side, _) | Face::Columns { side, .. } => Some(*side),
+            Face::Floor(id, _) | Face::Columns { building: id, .. } => Some(*id),
             Face::Wall => None,
         }
     }
 }
 
 impl ContactPair {
+    /// What is on a side of the gap.
+    pub const fn face(&self, side: Side) -> Face {
+        match side {
+            Side::Left => self.left,
+            Side::Right => self.right,
+        }
+    }
+
+    /// Whose keys a scene has for what is on a side of the gap: those of that side. But at a wall on either side of its building
+    /// they are those of `[left]` or `[right]`.
+    pub fn key_side(&self, side: Side) -> Side {
+        match (self.face(side).building(), self.face(side.opposite())) {
+            (Some(building), Face::Wall) if building == BuildingId::LEFT => Side::Left,
+            (Some(_), Face::Wall) => Side::Right,
+            _ => side,
+        }
+    }
+
     /// Where columns are hit, if they are.
     pub const fn position(&self) -> Option<f64> {
         match (self.left, self.right) {
@@ -90,16 +109,18 @@ impl ContactPair {
     }
 
     /// Whose columns of which storey, counted from 1, are hit, if any are.
-    pub const fn columns(&self) -> Option<(Side, usize)> {
+    pub const fn columns(&self) -> Option<(BuildingId, usize)> {
         match (self.left, self.right) {
-            (Face::Columns { side, storey, .. }, _) | (_, Face::Columns { side, storey, .. }) => Some((side, storey)),
+            (Face::Columns { building: id, storey, .. }, _) | (_, Face::Columns { building: id, storey, .. }) => {
+                Some((id, storey))
+            }
             _ => None,
         }
     }
 
     /// Whether a building takes part.
-    pub fn is_with(&self, side: Side) -> bool {
-        self.left.side() == Some(side) || self.right.side() == Some(side)
+    pub fn is_with(&self, id: BuildingId) -> bool {
+        self.left.building() == Some(id) || self.right.building() == Some(id)
     }
 
     /// Both floors, counted from 1, where a floor meets a floor.

@@ -1,17 +1,17 @@
 //! The row of a contact: by how much displacements of buildings close its gap.
 
+use super::building_id::BuildingId;
 use super::contact_pair::{ContactPair, Face};
 use super::data::Scene;
 use super::place::{Place, Share};
 use super::places::Places;
-use super::side::Side;
 
 impl Face {
     /// What moves it. The weights of floors and foundation are positive and add up to 1 together with that of the ground;
     /// columns that are bent to N(s) of their drift have turned by s as they lean with their foundation.
     fn shares(self, scene: &Scene) -> Vec<Share> {
-        let Some(side) = self.side() else { return Vec::new() };
-        let places = Places::of(scene.building(side));
+        let Some(id) = self.building() else { return Vec::new() };
+        let places = Places::of(scene.building(id));
         let place = |floor: usize| floor.checked_sub(1).map_or(Place::Foundation, Place::Floor);
         let shares: Vec<(Place, f64)> = match self {
             Face::Wall => Vec::new(),
@@ -26,7 +26,7 @@ impl Face {
         };
         // What does not move, such as the ground below columns, has no share.
         let moves = |(place, _): &(Place, f64)| places.number(*place).is_some();
-        shares.into_iter().filter(moves).map(|(place, weight)| Share { side, place, weight }).collect()
+        shares.into_iter().filter(moves).map(|(place, weight)| Share { building: id, place, weight }).collect()
     }
 }
 
@@ -40,9 +40,9 @@ impl ContactPair {
 
     /// Whether the ground takes part: as a wall, or as the lower end of the columns of a first storey.
     pub fn has_ground(&self, scene: &Scene) -> bool {
-        let sways = |side: Side| scene.building(side).inertia(Place::Foundation).is_finite();
+        let sways = |id: BuildingId| scene.building(id).inertia(Place::Foundation).is_finite();
         let is_of_ground = |face: &Face| match face {
-            Face::Columns { side, storey: 1, .. } => !sways(*side),
+            Face::Columns { building: id, storey: 1, .. } => !sways(*id),
             face => matches!(face, Face::Wall),
         };
         is_of_ground(&self.left) || is_of_ground(&self.right)

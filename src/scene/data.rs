@@ -22,10 +22,8 @@ pub struct Scene {
     pub units: Units,
     /// s, end of the default experiment.
     pub stop_time: Option<f64>,
-    /// The building on the left.
-    pub left: Building,
-    /// The building on the right; without floors where there is none.
-    pub right: Building,
+    /// The buildings, from left to right: `[left]` and `[right]`, which is without floors where there is none.
+    pub buildings: Vec<Building>,
     /// Ground motion.
     pub ground: Ground,
     /// `inputs.floor_forces`: every floor gets an external force input.
@@ -53,6 +51,8 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Building {
+    /// What it is called: the beginning of the names of its variables.
+    pub name: String,
     /// kg, one per floor.
     pub mass: Vec<f64>,
     /// N/m.
@@ -100,9 +100,10 @@ pub struct PDelta {
 
 impl Building {
     /// A building at rest whose storeys stay elastic, without heights.
-    pub fn new(mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
+    pub fn new(name: impl Into<String>, mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
         let (initial_displacement, initial_velocity) = (vec![0.0; mass.len()], vec![0.0; mass.len()]);
         Building {
+            name: name.into(),
             mass,
             stiffness,
             damping,
@@ -193,9 +194,9 @@ pub struct Solver {
 }
 
 impl Building {
-    /// No building.
-    pub fn absent() -> Building {
-        Building::new(Vec::new(), Stiffness::Shear(Vec::new()), Damping::Ratio(0.0))
+    /// No building where one of that name could be.
+    pub fn absent(name: impl Into<String>) -> Building {
+        Building::new(name, Vec::new(), Stiffness::Shear(Vec::new()), Damping::Ratio(0.0))
     }
 
     /// Yield force, N, and post-yield ratio of a storey, counted from 0, that can yield.

@@ -148,6 +148,11 @@ impl<'t> Section<'t> {
         }
     }
 
+    /// Reports that a table below this one has no such key.
+    pub(super) fn missing_in(&self, table: &str, key: &str, what: &str) {
+        self.document.report(&join(&join(&self.path, table), key), "", format!("{what} (missing)"));
+    }
+
     /// The table of a key; absent where the key is.
     pub(super) fn section(&mut self, key: &'static str) -> Section<'t> {
         let path = join(&self.path, key);

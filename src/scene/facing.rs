@@ -1,5 +1,6 @@
-//! `[facing]`: the contacts of two buildings by the levels of their floors.
+//! `[facing]`: the contacts of two neighbours by the levels of their floors.
 
+use super::building_id::BuildingId;
 use super::contact_pair::{ColumnShape, ContactPair, Face};
 use super::levels::{Heights, ROUNDING};
 use super::side::Side;
@@ -26,12 +27,12 @@ impl Facing {
     /// One contact for every floor of either building that faces the other one: with a floor whose level differs by no
     /// more than the tolerance, else with the columns of the storey that it stands before. Floors above the other
     /// building's roof, or not above its ground floor, face nothing. From the lowest level up.
-    pub(super) fn contacts(&self, [left, right]: [&Heights; 2]) -> Vec<ContactPair> {
+    pub(super) fn contacts(&self, [left, right]: [(BuildingId, &Heights); 2]) -> Vec<ContactPair> {
         let mut faces: Vec<(f64, [Face; 2])> = Vec::new();
-        for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {
+        for (side, (id, own), other) in [(Side::Left, left, right), (Side::Right, right, left)] {
             for floor in 1..=own.storeys.len() {
-                let Some(opposite) = self.opposite(side, own.level(floor), other) else { continue };
-                let floor = Face::Floor(side, floor);
+                let Some(opposite) = self.opposite(own.level(floor), other) else { continue };
+                let floor = Face::Floor(id, floor);
                 let pair = match side {
                     Side::Left => [floor, opposite.face],
                     Side::Right => [opposite.face, floor],
@@ -46,15 +47,14 @@ impl Facing {
         faces.into_iter().map(|(_, [left, right])| ContactPair { left, right, gap, law }).collect()
     }
 
-    /// What of the other building a floor of that side and level faces.
-    fn opposite(&self, side: Side, level: f64, other: &Heights) -> Option<Faced> {
-        let side = side.opposite();
+    /// What of the other building a floor of that level faces.
+    fn opposite(&self, level: f64, (building, other): (BuildingId, &Heights)) -> Option<Faced> {
         if let Some((floor, apart)) = other.nearest_floor(level)
             && apart <= self.level_tolerance + ROUNDING
         {
-            return Some(Faced { face: Face::Floor(side, floor), level: level.min(other.level(floor)) });
+            return Some(Faced { face: Face::Floor(building, floor), level: level.min(other.level(floor)) });
         }
         let (storey, position) = other.storey_at(level)?;
-        Some(Faced { face: Face::Columns { side, storey, position, shape: self.column_shape }, level })
+        Some(Faced { face: Face::Columns { building, storey, position, shape: self.column_shape }, level })
     }
 }

@@ -2,25 +2,16 @@
 
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Scene};
+use super::levels::Heights;
 use super::link::Link;
 use super::place::{Place, Share};
-use super::side::Side;
 use crate::figures::six_decimals;
-
-impl Scene {
-    /// One of the two buildings.
-    pub const fn building(&self, side: Side) -> &Building {
-        match side {
-            Side::Left => &self.left,
-            Side::Right => &self.right,
-        }
-    }
-}
 
 impl ContactPair {
     /// Reduced mass, kg: the inverse of the sum of weight^2 / mass over the row.
     pub fn reduced_mass(&self, scene: &Scene) -> f64 {
-        let of_share = |share: Share| scene.building(share.side).inertia(share.place) / (share.weight * share.weight);
+        let of_share =
+            |share: Share| scene.building(share.building).inertia(share.place) / (share.weight * share.weight);
         // A floor with next to no share is as good as infinitely heavy.
         let masses = self.row(scene).map(of_share).filter(|mass| mass.is_finite());
         masses.reduce(|one, other| one * other / (one + other)).unwrap_or(f64::INFINITY)
@@ -29,7 +20,7 @@ impl ContactPair {
     /// Penetration at the start of a run, m, and the sum of the magnitudes that it is made of.
     pub fn at_start(&self, scene: &Scene) -> (f64, f64) {
         let displacement = |share: &Share| {
-            let all = &scene.building(share.side).initial_displacement;
+            let all = &scene.building(share.building).initial_displacement;
             share.weight * Building::at_start(all, share.place)
         };
         let (moved, size) = self
@@ -40,8 +31,8 @@ impl ContactPair {
     }
 
     /// What meets, from left to right, for a table: "left 1 | right 1", "left 3 | columns of right 4 at 0.35".
-    pub fn brief(&self) -> String {
-        format!("{} | {}", self.left.brief(), self.right.brief())
+    pub fn brief(&self, scene: &Scene) -> String {
+        format!("{} | {}", self.left.brief(scene), self.right.brief(scene))
     }
 
     /// What meets, for a person: "between left floor 1 and right floor 1", "of left floor 3, level 11.1 m, against columns
@@ -61,34 +52,37 @@ impl ContactPair {
 
 impl Link {
     /// What it is between, from left to right, for a table: "left 2 | right 2", "ground | right 1".
-    pub fn brief(&self) -> String {
-        let [left, right] = self.names("", Face::brief);
+    pub fn brief(&self, scene: &Scene) -> String {
+        let [left, right] = self.names(scene, "", |floor| floor.brief(scene));
         format!("{left} | {right}")
     }
 
     /// What it is between, for a person: "between left floor 2 and right floor 2", "between left floor 2 and the ground".
     pub fn meeting(&self, scene: &Scene) -> String {
-        let [left, right] = self.names("the ", |floor| floor.name(scene));
+        let [left, right] = self.names(scene, "the ", |floor| floor.name(scene));
         format!("between {left} and {right}").trim_end_matches(',').to_owned()
     }
 
     /// The names of its ends; `article` stands before what is no floor.
-    fn names(&self, article: &str, of_floor: impl Fn(&Face) -> String) -> [String; 2] {
-        [(Side::Left, self.left), (Side::Right, self.right)].map(|(side, end)| match end {
+    fn names(&self, scene: &Scene, article: &str, of_floor: impl Fn(&Face) -> String) -> [String; 2] {
+        [self.left, self.right].map(|end| match end {
             None => format!("{article}ground"),
-            Some(Place::Floor(floor)) => of_floor(&Face::Floor(side, floor + 1)),
-            Some(Place::Foundation | Place::Rotation) => format!("{article}{side} foundation"),
+            Some((id, Place::Floor(floor))) => of_floor(&Face::Floor(id, floor + 1)),
+            Some((id, Place::Foundation | Place::Rotation)) => {
+                format!("{article}{} foundation", scene.building(id).name)
+            }
         })
     }
 }
 
 impl Face {
     /// As short as a column of a table wants it.
-    fn brief(&self) -> String {
+    fn brief(&self, scene: &Scene) -> String {
+        let name = |id| &scene.building(id).name;
         match *self {
-            Face::Floor(side, floor) => format!("{side} {floor}"),
-            Face::Columns { side, storey, position, .. } => {
-                format!("columns of {side} {storey} at {}", six_decimals(position))
+            Face::Floor(id, floor) => format!("{} {floor}", name(id)),
+            Face::Columns { building: id, storey, position, .. } => {
+                format!("columns of {} {storey} at {}", name(id), six_decimals(position))
             }
             Face::Wall => "wall".to_owned(),
         }
@@ -97,13 +91,13 @@ impl Face {
     /// For a person, in a scene whose buildings may have levels.
     fn name(&self, scene: &Scene) -> String {
         match *self {
-            Face::Floor(side, floor) => {
-                let heights = scene.building(side).heights.as_ref();
-                let level = heights.map(|heights| format!(", level {} m,", six_decimals(heights.level(floor))));
-                format!("{side} floor {floor}{}", level.unwrap_or_default())
+            Face::Floor(id, floor) => {
+                let Building { name, heights, .. } = scene.building(id);
+                let level = |heights: &Heights| format!(", level {} m,", six_decimals(heights.level(floor)));
+                format!("{name} floor {floor}{}", heights.as_ref().map(level).unwrap_or_default())
             }
-            Face::Columns { side, storey, position, .. } => {
-                format!("columns of {side} storey {storey} at {}", six_decimals(position))
+            Face::Columns { building: id, storey, position, .. } => {
+                format!("columns of {} storey {storey} at {}", scene.building(id).name, six_decimals(position))
             }
             Face::Wall => "wall".to_owned(),
         }

@@ -31,7 +31,7 @@
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 //!
-//! The table `[facing]`, with the keys of a contact's gap and law, makes the contacts from the heights of both buildings.
+//! The table `[facing]`, with the keys of a contact's gap and law, makes the contacts from the heights of the buildings.
 //! Masses are in t and forces in kN where the scene begins with `units = "kN-t"`; what has been read is in SI units.
 //!
 //! The optional tables `[ground]` (`record`, a name or a table that says what its file does not; `scale` or `pga`), `[inputs]`
@@ -55,13 +55,14 @@
 //! foundation); did you mean mass?");
 //! ```
 //!
-//! Where things are: `data` is the scene, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
+//! Where things are: `data` is the scene, `building_id` says which building is meant, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
 //! numbers are allowed, `check` which shapes and combinations, `read`, `read_contacts`, `read_links` and `read_foundation` go through the keys
 //! of the file, `levels` adds up heights, `p_delta` is gravity on storeys that lean, `foundation` the soil under a building, `facing` makes contacts of them,
 //! `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what is often written instead of
 //! TOML, `units` converts masses and forces, `files` loads scenes with their records,
 //! `lines` says on which lines its paths stand.
 
+mod building_id;
 mod check;
 mod check_foundation;
 mod check_springs;
@@ -94,6 +95,7 @@ mod side;
 mod syntax;
 mod units;
 
+pub use building_id::BuildingId;
 pub use contact_pair::{ColumnShape, ContactPair, Face};
 pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};

@@ -1,6 +1,6 @@
 //! Which displacement of a building is meant, and how much of it counts.
 
-use super::side::Side;
+use super::building_id::BuildingId;
 
 /// A displacement of a building: of one of its floors, or of its foundation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,7 +18,7 @@ pub enum Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
     /// Whose displacement.
-    pub side: Side,
+    pub building: BuildingId,
     /// That of a floor, but where a building on soil has columns that are hit, or a link holds its foundation.
     pub place: Place,
     /// Positive on the left, negative on the right.

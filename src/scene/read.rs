@@ -1,10 +1,10 @@
 //! The keys of a scene file, one after the other.
 
+use super::building_id::BuildingId;
 use super::data::{Building, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 use super::document::{self, Document, Item, KEY, Section, TextSpan};
 use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
-use super::side::Side;
 use super::units::{self, Units};
 use super::{check, read_contacts, read_foundation, read_links, read_record, rule};
 use std::collections::{HashMap, HashSet};
@@ -96,22 +96,25 @@ fn scene(mut root: Section<'_>) -> Scene {
     let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
     let units = root.get("units").and_then(|item| item.named(Units::from_name, units::expected)).unwrap_or_default();
     let stop_time = root.get("stop_time").map(|item| item.number());
-    let left = building(root.require_section("left", "the building on the left"), units);
-    let right = root.get("right").map(|item| building(item.section(), units));
+    let left = building("left", root.require_section("left", "the building on the left"), units);
+    let right = root.get("right").map(|item| building("right", item.section(), units));
     let ground = ground(root.section("ground"));
     let (floor_forces, restoring_corrections) = inputs(root.section("inputs"));
-    let (contacts, facing) =
-        read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
+    let (contacts, facing) = read_contacts::all(
+        &mut root,
+        [(BuildingId::LEFT, &left), (BuildingId::RIGHT, right.as_ref().unwrap_or(&Building::absent("right")))],
+        units,
+    );
     let links = read_links::all(&mut root, units);
-    let is_met = facing.is_some() || contacts.iter().any(|pair| pair.is_with(Side::Right));
+    let is_met = facing.is_some() || contacts.iter().any(|pair| pair.is_with(BuildingId::RIGHT));
     match right.is_none() {
         true if is_met => root.missing("right", "the building on the right, which contacts are with"),
-        true if links.iter().any(|link| link.right.is_some()) => {
+        true if links.iter().any(|link| link.is_with(BuildingId::RIGHT)) => {
             root.missing("right", "the building on the right, which links are with");
         }
         _ => {}
     }
-    let right = right.unwrap_or_else(Building::absent);
+    let right = right.unwrap_or_else(|| Building::absent("right"));
     let Shown { energy, peaks, numbers_only } = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
@@ -121,8 +124,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         description,
         units,
         stop_time,
-        left,
-        right,
+        buildings: vec![left, right],
         ground,
         floor_forces,
         restoring_corrections,
@@ -136,7 +138,7 @@ fn scene(mut root: Section<'_>) -> Scene {
     }
 }
 
-fn building(mut section: Section<'_>, units: Units) -> Building {
+fn building(name: &str, mut section: Section<'_>, units: Units) -> Building {
     let what = format!("a list of masses in {}, one per floor", units.unit("kg"));
     let mass = section.require("mass", &what).map(|item| {
         let mass = item.quantities(units);
@@ -156,7 +158,7 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
         Some(item) => self::damping(item.section(), units),
         None => Damping::Ratio(0.0),
     };
-    let mut building = Building::new(mass, stiffness, damping);
+    let mut building = Building::new(name, mass, stiffness, damping);
     section.get("initial_displacement").inspect(|item| building.initial_displacement = item.numbers());
     section.get("initial_velocity").inspect(|item| building.initial_velocity = item.numbers());
     building.heights = heights(&mut section);

@@ -1,5 +1,6 @@
 //! The keys of contacts: `[[contact]]`, with what meets and by which law, and `[facing]`.
 
+use super::building_id::BuildingId;
 use super::contact_pair::{ColumnShape, ContactPair, Face};
 use super::data::Building;
 use super::document::{Item, KEY, Section};
@@ -13,8 +14,11 @@ use crate::figures::six_decimals;
 
 const FLOOR: &str = "a floor, counted from 1";
 
+/// The buildings on the left and on the right of a gap.
+pub(super) type Neighbours<'b> = [(BuildingId, &'b Building); 2];
+
 /// All contacts of a scene with these buildings, and the tolerance of `[facing]` where that makes them.
-pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Units) -> (Vec<ContactPair>, Option<f64>) {
+pub(super) fn all(root: &mut Section<'_>, buildings: Neighbours<'_>, units: Units) -> (Vec<ContactPair>, Option<f64>) {
     let tables = root.get("contact");
     if let Some(facing) = root.get("facing") {
         tables.inspect(|item| item.refuse("either [[contact]] tables or [facing], not both"));
@@ -34,14 +38,13 @@ fn facing(mut section: Section<'_>, units: Units) -> Facing {
     }
 }
 
-fn facing_contacts(root: &mut Section<'_>, facing: &Facing, buildings: [&Building; 2]) -> Vec<ContactPair> {
-    let heights = Side::BOTH.map(|side| {
-        let building = buildings[side as usize];
+fn facing_contacts(root: &mut Section<'_>, facing: &Facing, buildings: Neighbours<'_>) -> Vec<ContactPair> {
+    let heights = buildings.map(|(id, building)| {
         if building.heights.is_none() && !building.is_absent() {
-            root.section(side.name()).missing("height", "the heights of the storeys in m, which [facing] needs");
+            root.missing_in(&building.name, "height", "the heights of the storeys in m, which [facing] needs");
         }
         // Where heights are wrong, that is told where they stand.
-        building.heights.as_ref().filter(|heights| heights.are_of(building.mass.len()))
+        Some((id, building.heights.as_ref().filter(|heights| heights.are_of(building.mass.len()))?))
     });
     match heights {
         [Some(left), Some(right)] => facing.contacts([left, right]),
@@ -49,7 +52,7 @@ fn facing_contacts(root: &mut Section<'_>, facing: &Facing, buildings: [&Buildin
     }
 }
 
-fn contact(mut section: Section<'_>, buildings: [&Building; 2], units: Units) -> ContactPair {
+fn contact(mut section: Section<'_>, buildings: Neighbours<'_>, units: Units) -> ContactPair {
     let [left, right] = faces(&mut section, buildings);
     let gap = gap(&mut section);
     let law = law(section, units);
@@ -72,7 +75,7 @@ struct Keys<'t> {
     wall: Option<Item<'t>>,
 }
 
-fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] {
+fn faces<'t>(section: &mut Section<'t>, buildings: Neighbours<'_>) -> [Face; 2] {
     let keys = Keys {
         floors: ["left_floor", "right_floor"].map(|key| section.get(key)),
         storeys: ["left_storey", "right_storey"].map(|key| section.get(key)),
@@ -81,7 +84,7 @@ fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] 
         wall: section.get("wall"),
     };
     if let Some(wall) = &keys.wall {
-        return at_wall(section, &keys, wall);
+        return at_wall(section, &keys, wall, buildings);
     }
     for side in Side::BOTH {
         keys.refuse_what_belongs_to_columns(side);
@@ -98,7 +101,7 @@ fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] 
         }
         storey => {
             storey.as_ref().inspect(|item| item.refuse(format!("either {side}_floor or {side}_storey, not both")));
-            Face::Floor(side, floors[side as usize])
+            Face::Floor(buildings[side as usize].0, floors[side as usize])
         }
     })
 }
@@ -128,19 +131,20 @@ fn floor(section: &Section<'_>, keys: &Keys<'_>, side: Side) -> usize {
 }
 
 /// One floor, of either building, and a wall on one side of it.
-fn at_wall(section: &Section<'_>, keys: &Keys<'_>, wall: &Item<'_>) -> [Face; 2] {
+fn at_wall(section: &Section<'_>, keys: &Keys<'_>, wall: &Item<'_>, buildings: Neighbours<'_>) -> [Face; 2] {
+    let [left, right] = buildings.map(|(id, _)| id);
     let others = keys.storeys.iter().chain(&keys.positions).chain([&keys.shape]).flatten();
     others.for_each(|item| item.refuse("no such key: a wall is hit by a floor, left_floor or right_floor"));
     let floor = match &keys.floors {
-        [Some(left), None] => Face::Floor(Side::Left, left.count()),
-        [None, Some(right)] => Face::Floor(Side::Right, right.count()),
+        [Some(floor), None] => Face::Floor(left, floor.count()),
+        [None, Some(floor)] => Face::Floor(right, floor.count()),
         [Some(_), Some(right)] => {
             right.refuse("one floor only at a wall");
             Face::Wall
         }
         [None, None] => {
             section.missing("left_floor", "a floor, counted from 1, here or as right_floor");
-            Face::Floor(Side::Left, 0)
+            Face::Floor(left, 0)
         }
     };
     match wall.text() {
@@ -161,11 +165,11 @@ fn columns(
     side: Side,
     storey: &Item<'_>,
     floor: usize,
-    buildings: [&Building; 2],
+    buildings: Neighbours<'_>,
 ) -> Face {
     let number = storey.count();
     let shape = keys.shape.as_ref().and_then(column_shape).unwrap_or_default();
-    let heights = [side, side.opposite()].map(|side| buildings[side as usize].heights.as_ref());
+    let heights = [side, side.opposite()].map(|side| buildings[side as usize].1.heights.as_ref());
     let position = match (&keys.positions[side as usize], heights) {
         (Some(position), _) => Some(position.number()),
         (None, [Some(own), Some(other)]) => position_by_levels(storey, number, side, floor, [own, other]),
@@ -177,7 +181,7 @@ fn columns(
         }
     };
     // Where it is unknown, that has been said.
-    Face::Columns { side, storey: number, position: position.unwrap_or(0.5), shape }
+    Face::Columns { building: buildings[side as usize].0, storey: number, position: position.unwrap_or(0.5), shape }
 }
 
 fn column_shape(item: &Item<'_>) -> Option<ColumnShape> {

@@ -1,5 +1,6 @@
 //! The keys of links: `[[link]]`, with its two ends, its spring and its dashpot.
 
+use super::building_id::BuildingId;
 use super::document::{Item, KEY, Section};
 use super::link::{Link, Slip};
 use super::place::Place;
@@ -55,12 +56,12 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
 }
 
 /// The ends on the left and on the right; `None` is the ground, as a wall opposite of a floor.
-fn ends(section: &mut Section<'_>) -> [Option<Place>; 2] {
+fn ends(section: &mut Section<'_>) -> [Option<(BuildingId, Place)>; 2] {
     let (floors, wall) = (FLOORS.map(|key| section.get(key)), section.get("wall"));
     match (&floors, &wall) {
         ([None, None], _) => {
             section.missing(FLOORS[0], &format!("{FLOOR}, and right_floor, or one of them and a wall"));
-            return [Some(Place::Floor(0)), None];
+            return [Some((BuildingId::LEFT, Place::Floor(0))), None];
         }
         ([Some(_), Some(_)], Some(wall)) => wall.refuse("no wall beside left_floor and right_floor: two ends only"),
         ([Some(_), Some(_)], None) => {}
@@ -73,7 +74,9 @@ fn ends(section: &mut Section<'_>) -> [Option<Place>; 2] {
             }
         }
     }
-    floors.map(|floor| floor.map(|item| place(&item)))
+    let [left, right] = floors;
+    let end = |id: BuildingId, floor: Option<Item<'_>>| Some((id, place(&floor?)));
+    [end(BuildingId::LEFT, left), end(BuildingId::RIGHT, right)]
 }
 
 /// From the number of a floor, counted from 1; 0 is the foundation.

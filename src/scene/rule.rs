@@ -104,7 +104,7 @@ pub use crate::record::MOST_TIME;
 /// tallest buildings have less than 200.
 pub const MOST_FLOORS: usize = 1000;
 
-/// Contacts, or links, times floors of both buildings: each contact knows how every mode moves it, some hundred megabytes in all.
+/// Contacts, or links, times floors of all buildings: each contact knows how every mode moves it, some hundred megabytes in all.
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
 
 /// Any finite number: entries of matrices.

@@ -1,13 +1,13 @@
-//! Left and right.
+//! Left and right of a gap.
 
 use std::fmt;
 
-/// Which building.
+/// A side of the gap of a contact, or an end of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// On the left.
+    /// The left one.
     Left,
-    /// On the right.
+    /// The right one.
     Right,
 }
 
@@ -15,7 +15,7 @@ impl Side {
     /// Both, the left one first.
     pub const BOTH: [Side; 2] = [Side::Left, Side::Right];
 
-    /// As in keys and names of variables.
+    /// As in keys.
     pub const fn name(self) -> &'static str {
         match self {
             Side::Left => "left",

@@ -66,8 +66,8 @@ impl Slave {
             },
             Slot::Input(input) => Value::Real(self.run.inputs().get(input).at(self.run.time())),
             Slot::Parameter(parameter) => self.settings.read(parameter),
-            Slot::Calculated(Calculated::Frequency(side, mode)) => {
-                Value::Real(self.start()?.model().natural_frequencies(side)[mode])
+            Slot::Calculated(Calculated::Frequency(id, mode)) => {
+                Value::Real(self.start()?.model().natural_frequencies(id)[mode])
             }
             Slot::Calculated(Calculated::SystemFrequency(mode)) => {
                 Value::Real(self.start()?.model().system_frequencies()[mode])

@@ -15,6 +15,7 @@ use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::{Collapse, Episode};
 use crate::figures::plain;
+use crate::scene::Scene;
 use crate::scene::rule::MOST_TIME;
 
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
@@ -105,7 +106,7 @@ impl Slave {
 
     #[cold]
     fn tell(&mut self, collapse: &Collapse) -> Status {
-        let text = describe_collapse(collapse);
+        let text = describe_collapse(&self.settings.scene, collapse);
         if self.interface.version() == FmiVersion::V2 || std::mem::replace(&mut self.has_told_end, true) {
             return self.discard_for(Call::DoStep, vec![text]);
         }
@@ -251,8 +252,9 @@ fn begins_at(current: f64, now: f64) -> bool {
     (current - now).abs() <= tolerance(now)
 }
 
-fn describe_collapse(Collapse { side, storey, time, .. }: &Collapse) -> String {
-    format!("storey {} of the {side} building has collapsed at {time:.9} s, and the run ends there", storey + 1)
+fn describe_collapse(scene: &Scene, Collapse { building, storey, time, .. }: &Collapse) -> String {
+    let name = &scene.building(*building).name;
+    format!("storey {} of the {name} building has collapsed at {time:.9} s, and the run ends there", storey + 1)
 }
 
 /// An episode in one line, as the contacts are counted in the scene.

@@ -3,7 +3,7 @@
 use super::bodies::Body;
 use super::floors::Floors;
 use super::modes::{ModalDamping, Modes};
-use crate::scene::{Building, Place, Places, Side};
+use crate::scene::{Building, BuildingId, Place, Places};
 
 /// Rows of the base shear, N, over displacements and velocities: the column sums of K and C of the floors of the building by
 /// itself, which a foundation moves under.
@@ -17,7 +17,12 @@ pub(super) struct BaseShear {
 
 impl BaseShear {
     /// From the modes of the building on a fixed base, and its body.
-    pub(super) fn of((side, building): (Side, &Building), modes: &Modes, body: &Body, floors: &Floors) -> BaseShear {
+    pub(super) fn of(
+        (id, building): (BuildingId, &Building),
+        modes: &Modes,
+        body: &Body,
+        floors: &Floors,
+    ) -> BaseShear {
         let (count, shape) = (building.mass.len(), &modes.shape);
         let damped = |m: usize| match &modes.damping {
             ModalDamping::Diagonal(c) => c[m] * modes.participation[m],
@@ -29,7 +34,7 @@ impl BaseShear {
             let force = |j: usize| building.mass[j] * (0..count).map(|m| of_modes[m] * shape[(j, m)]).sum::<f64>();
             (0..count).map(force).collect()
         };
-        let places = floors.places(side);
+        let places = floors.places(id);
         let of_floors = match building.foundation {
             None => [over_floors(&pulled), over_floors(&damped)],
             Some(_) => [of_first_storey(building, places), with_foundation(&over_floors(&damped), places)],
@@ -37,7 +42,7 @@ impl BaseShear {
         let of_modes = of_floors.each_ref().map(|row| {
             let mut modal = vec![0.0; floors.mass().len()];
             for (place, force) in row.iter().enumerate() {
-                let shapes = body.modes.shape.row(body.row(side, 0) + place);
+                let shapes = body.modes.shape.row(body.row(id, 0) + place);
                 let modal = modal[body.range.clone()].iter_mut();
                 modal.zip(shapes.iter()).for_each(|(modal, shape)| *modal += shape * force);
             }

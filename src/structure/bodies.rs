@@ -1,5 +1,5 @@
-//! Bodies: floors, and the foundations below them, whose modes are solved together. Each building is a body by itself; a link
-//! between the buildings makes one body of both.
+//! Bodies: floors, and the foundations below them, whose modes are solved together. Each building is a body by itself; links
+//! make one body of all buildings that they join.
 //!
 //! ```text
 //! M u'' + (C + sum c w w') u' + (K + sum k w w') u = -M 1 ground acceleration + ...
@@ -12,7 +12,7 @@
 use super::floors::Floors;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite, solve, stiffness_factor};
 use super::soil;
-use crate::scene::{Building, Link, Place, Places, Side};
+use crate::scene::{Building, BuildingId, Link, Place, Places};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -34,41 +34,37 @@ pub struct Body {
 /// A building in its body.
 #[derive(Clone, Debug)]
 pub struct BuildingPart {
-    pub side: Side,
+    pub building: BuildingId,
     /// Its floors among the rows of the body; those of its foundation follow.
     pub floors: Range<usize>,
     pub places: Places,
 }
 
 impl Body {
-    /// All bodies of two buildings with those modes, which some links may join.
+    /// The bodies of a row of buildings with those modes, of which links join some.
     pub(super) fn all(
-        buildings: [&Building; 2],
-        alone: &[Modes; 2],
+        (buildings, alone): (&[Building], &[Modes]),
+        joined: &[Vec<BuildingId>],
         links: &[Link],
         floors: &Floors,
-    ) -> Result<Vec<Body>, (Side, NotPositiveDefinite)> {
-        let sides = match links.iter().any(Link::joins_buildings) {
-            true => vec![vec![Side::Left, Side::Right]],
-            false => vec![vec![Side::Left], vec![Side::Right]],
-        };
+    ) -> Result<Vec<Body>, (BuildingId, NotPositiveDefinite)> {
         let (mut bodies, mut first) = (Vec::new(), 0);
-        for sides in sides {
+        for joined in joined {
             let (mut parts, mut count) = (Vec::new(), 0);
-            for &side in &sides {
-                let places = Places::of(buildings[side as usize]);
+            for &id in joined {
+                let places = Places::of(&buildings[id.index()]);
                 let (first, own) = (count, places.count());
-                parts.push(BuildingPart { side, floors: first..first + places.floors, places });
+                parts.push(BuildingPart { building: id, floors: first..first + places.floors, places });
                 count += own;
             }
-            let own = links.iter().filter(|link| link.ends().any(|end| sides.contains(&end.side)));
+            let own = links.iter().filter(|link| link.ends().any(|end| joined.contains(&end.building)));
             let own: Vec<&Link> = own.collect();
-            let is_linked = !own.is_empty() || sides.iter().any(|side| buildings[*side as usize].foundation.is_some());
+            let is_linked = !own.is_empty() || joined.iter().any(|id| buildings[id.index()].foundation.is_some());
             let modes = match is_linked {
-                false => alone[sides[0] as usize].clone(),
-                true => linked_modes((buildings, alone), &parts, &own).map_err(|error| (sides[0], error))?,
+                false => alone[joined[0].index()].clone(),
+                true => linked_modes((buildings, alone), &parts, &own).map_err(|error| (joined[0], error))?,
             };
-            let first_lane = floors.lane(sides[0] as usize, 0);
+            let first_lane = floors.lane(joined[0], 0);
             let lanes = first_lane..first_lane + count;
             let range = first..first + count;
             bodies.push(Body { modes, range, lanes, buildings: parts, is_linked });
@@ -78,8 +74,8 @@ impl Body {
     }
 
     /// Whether a building is part of it.
-    pub fn has(&self, side: Side) -> bool {
-        self.buildings.iter().any(|part| part.side == side)
+    pub fn has(&self, id: BuildingId) -> bool {
+        self.buildings.iter().any(|part| part.building == id)
     }
 
     /// Off-diagonal damping between its modes, 1/s, where there is any.
@@ -100,34 +96,42 @@ impl Body {
     }
 
     /// The building to which one of its floors belongs, and its number there.
-    pub fn floor(&self, row: usize) -> Option<(Side, usize)> {
+    pub fn floor(&self, row: usize) -> Option<(BuildingId, usize)> {
         let part = self.buildings.iter().find(|part| part.floors.contains(&row))?;
-        Some((part.side, row - part.floors.start))
+        Some((part.building, row - part.floors.start))
     }
 
     /// The row of a floor of one of its buildings.
-    pub fn row(&self, side: Side, floor: usize) -> usize {
-        self.buildings.iter().find(|part| part.side == side).map_or(0, |part| part.floors.start) + floor
+    pub fn row(&self, id: BuildingId, floor: usize) -> usize {
+        self.buildings.iter().find(|part| part.building == id).map_or(0, |part| part.floors.start) + floor
     }
 
     /// The row of a displacement of one of its buildings, where there is one.
-    pub fn row_of(&self, side: Side, place: Place) -> Option<usize> {
-        let part = self.buildings.iter().find(|part| part.side == side)?;
+    pub fn row_of(&self, id: BuildingId, place: Place) -> Option<usize> {
+        let part = self.buildings.iter().find(|part| part.building == id)?;
         Some(part.floors.start + part.places.number(place)?)
     }
 
     /// The drift of a storey of one of its buildings over the modes.
-    pub fn drift(&self, side: Side, storey: usize, mode: usize) -> f64 {
-        let part = self.buildings.iter().find(|part| part.side == side);
+    pub fn drift(&self, id: BuildingId, storey: usize, mode: usize) -> f64 {
+        let part = self.buildings.iter().find(|part| part.building == id);
         let weights = part.into_iter().flat_map(|part| part.places.drift(storey));
-        let weighted = |(place, weight)| Some(weight * self.modes.shape[(self.row_of(side, place)?, mode)]);
+        let weighted = |(place, weight)| Some(weight * self.modes.shape[(self.row_of(id, place)?, mode)]);
         weights.filter_map(weighted).sum()
     }
 }
 
+/// The buildings of each body of a row, from left to right: links join neighbours.
+pub(super) fn joined(count: usize, links: &[Link]) -> Vec<Vec<BuildingId>> {
+    let row: Vec<BuildingId> = BuildingId::row_of(count).collect();
+    let are_joined =
+        |left: &BuildingId, right: &BuildingId| links.iter().any(|link| link.is_with(*left) && link.is_with(*right));
+    row.chunk_by(are_joined).map(<[BuildingId]>::to_vec).collect()
+}
+
 /// The modes of buildings on soil, or with links between them or to the ground.
 fn linked_modes(
-    (buildings, alone): ([&Building; 2], &[Modes; 2]),
+    (buildings, alone): (&[Building], &[Modes]),
     parts: &[BuildingPart],
     links: &[&Link],
 ) -> Result<Modes, NotPositiveDefinite> {
@@ -135,8 +139,8 @@ fn linked_modes(
     let mut factor = DMatrix::zeros(count + links.len(), count);
     let mut mass = DVector::zeros(count);
     let mut pushed = mass.clone();
-    for BuildingPart { side, floors, places } in parts {
-        let (building, first, count) = (buildings[*side as usize], floors.start, places.count());
+    for BuildingPart { building: id, floors, places } in parts {
+        let (building, first, count) = (&buildings[id.index()], floors.start, places.count());
         let own = match building.foundation {
             None => stiffness_factor(&building.net_stiffness())?,
             Some(_) => soil::factor_on_soil(building)?,
@@ -147,24 +151,24 @@ fn linked_modes(
         // The ground turns no foundation.
         places.number(Place::Rotation).iter().for_each(|row| pushed[first + row] = 0.0);
     }
-    let row_of = |side: Side, place: Place| {
-        let part = parts.iter().find(|part| part.side == side)?;
+    let row_of = |id: BuildingId, place: Place| {
+        let part = parts.iter().find(|part| part.building == id)?;
         Some(part.floors.start + part.places.number(place)?)
     };
-    let ends = |link: &Link| link.ends().filter_map(|end| Some((row_of(end.side, end.place)?, end.weight)));
+    let ends = |link: &Link| link.ends().filter_map(|end| Some((row_of(end.building, end.place)?, end.weight)));
     for (line, link) in (count..).zip(links) {
         ends(link).for_each(|(row, w)| factor[(line, row)] = link.stiffness.sqrt() * w);
     }
     let (omega, shape) = solve(&mass, &factor)?;
     let mut damping = DMatrix::zeros(count, count);
     for part in parts {
-        let (modes, floors) = (&alone[part.side as usize], &part.floors);
+        let (modes, floors) = (&alone[part.building.index()], &part.floors);
         let weighted =
             DMatrix::from_fn(floors.len(), floors.len(), |i, m| mass[floors.start + i] * modes.shape[(i, m)]);
         let between = weighted.tr_mul(&soil::beyond_foundation((part.floors.start, &part.places), &shape));
         damping += between.tr_mul(&(modes.damping.matrix() * &between));
-        for (place, soil) in soil::springs(buildings[part.side as usize]) {
-            let Some(row) = row_of(part.side, place) else { continue };
+        for (place, soil) in soil::springs(&buildings[part.building.index()]) {
+            let Some(row) = row_of(part.building, place) else { continue };
             damping += soil.dashpot * shape.row(row).transpose() * shape.row(row);
         }
     }

@@ -290,7 +290,7 @@ fn size(number: Complex<f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::{CoupledIncrement, ModeIncrement, Side, Structure};
+    use crate::structure::{BuildingId, CoupledIncrement, ModeIncrement, Structure};
 
     /// Two buildings with dashpots between them, from light to so heavy that joint modes creep; and one whose own dashpots
     /// couple its modes.
@@ -322,7 +322,7 @@ mod tests {
     fn they_fly_as_coupled_modes_do() {
         let mut creeping = 0;
         for structure in structures() {
-            let modes = &structure.body(Side::Left).modes;
+            let modes = &structure.body(BuildingId::LEFT).modes;
             let (damping, of) = (modes.damping.matrix(), Oscillators::of(modes).unwrap());
             let (n, h) = (modes.omega.len(), 0.01);
             creeping += of.omega.iter().zip(&of.damping).filter(|(w, c)| **c > 2.0 * **w).count();

@@ -1,4 +1,4 @@
-//! Energies of both buildings in modal coordinates, and the powers that change them.
+//! Energies of all buildings in modal coordinates, and the powers that change them.
 
 use super::equations::Structure;
 use super::form::{row_times, squares};

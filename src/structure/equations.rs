@@ -1,7 +1,7 @@
-//! Both buildings in modal coordinates: their equation of motion.
+//! All buildings in modal coordinates: their equation of motion.
 
 use super::base_shear::BaseShear;
-use super::bodies::Body;
+use super::bodies::{Body, joined};
 use super::flight_modes::FlightModes;
 use super::floor_rows::FloorRows;
 use super::floors::Floors;
@@ -12,25 +12,27 @@ use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use super::motion::{LinearLoad, Motion};
 use super::soil::{self, SoilRows};
-use crate::scene::{Link, Place, Scene, Share, Side, Soil};
+use crate::scene::{Building, BuildingId, Link, Place, Scene, Share, Soil};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-/// Both buildings in modal coordinates.
+/// All buildings in modal coordinates.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// What moves together, in the order of their modes and floors.
     pub bodies: Vec<Body>,
     /// The number of each building's body.
-    body_of: [usize; 2],
+    body_of: Vec<usize>,
+    /// How many floors stand before those of each building, from left to right.
+    floors_before: Vec<usize>,
     /// The modes of each building by itself on a fixed base, where links or soil act on it.
-    alone: [Option<Modes>; 2],
+    alone: Vec<Option<Modes>>,
     /// Base shears of the buildings on which links or soil act.
-    shears: [Option<BaseShear>; 2],
+    shears: Vec<Option<BaseShear>>,
     /// The links of the scene, and after them the soil under foundations.
     pub links: Vec<LinkRow>,
     /// The soil under each building among the links.
-    pub soil: [SoilRows; 2],
+    pub soil: Vec<SoilRows>,
     /// Length of a modal vector.
     pub lanes: usize,
     /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
@@ -72,25 +74,25 @@ pub(super) struct Coupling {
 
 impl Structure {
     /// Solves the eigenproblems of all bodies of a scene.
-    pub fn of(scene: &Scene) -> Result<Structure, (Side, NotPositiveDefinite)> {
-        let buildings = [&scene.left, &scene.right];
-        let left = Modes::of(buildings[0]).map_err(|e| (Side::Left, e))?;
-        let right = Modes::of(buildings[1]).map_err(|e| (Side::Right, e))?;
-        let modes = [left, right];
+    pub fn of(scene: &Scene) -> Result<Structure, (BuildingId, NotPositiveDefinite)> {
+        let buildings = &scene.buildings;
+        let of = |(id, building): (BuildingId, &Building)| Modes::of(building).map_err(|error| (id, error));
+        let modes = scene.ids().zip(buildings).map(of).collect::<Result<Vec<Modes>, _>>()?;
         let is_on_soil = buildings.iter().any(|building| building.foundation.is_some());
-        let floors = Floors::new(buildings, &modes, is_on_soil || !scene.links.is_empty());
-        let bodies = Body::all(buildings, &modes, &scene.links, &floors)?;
-        let is_linked = |side: Side| bodies.iter().any(|body| body.is_linked && body.has(side));
-        let [left, right] = modes;
-        let alone = [(Side::Left, left), (Side::Right, right)].map(|(side, of)| is_linked(side).then_some(of));
+        let joined = joined(buildings.len(), &scene.links);
+        let floors = Floors::new((buildings, &modes), &joined, is_on_soil || !scene.links.is_empty());
+        let bodies = Body::all((buildings, &modes), &joined, &scene.links, &floors)?;
         let mut structure = Structure::of_bodies(bodies, floors);
         structure.add_links(scene);
-        structure.shears = Side::BOTH.map(|side| {
-            let modes = alone[side as usize].as_ref()?;
-            let building = scene.building(side);
-            Some(BaseShear::of((side, building), modes, structure.body(side), &structure.floors))
-        });
+        let is_linked = |id: BuildingId| structure.body(id).is_linked;
+        let alone = structure.ids().zip(modes).map(|(id, of)| is_linked(id).then_some(of)).collect();
         structure.alone = alone;
+        let shear = |id: BuildingId| {
+            let modes = structure.alone[id.index()].as_ref()?;
+            Some(BaseShear::of((id, scene.building(id)), modes, structure.body(id), &structure.floors))
+        };
+        let shears = structure.ids().map(shear).collect();
+        structure.shears = shears;
         Ok(structure)
     }
 
@@ -98,14 +100,14 @@ impl Structure {
     fn add_links(&mut self, scene: &Scene) {
         let of = |link: &Link| LinkRow::of(link.ends(), (link.stiffness, link.dashpot), &self.bodies, &self.floors);
         let mut links: Vec<LinkRow> = scene.links.iter().map(of).collect();
-        for side in Side::BOTH {
-            for (place, Soil { stiffness, dashpot }) in soil::springs(scene.building(side)) {
+        for id in self.ids() {
+            for (place, Soil { stiffness, dashpot }) in soil::springs(scene.building(id)) {
                 let number = Some(links.len());
                 match place {
-                    Place::Rotation => self.soil[side as usize].rocking = number,
-                    _ => self.soil[side as usize].sway = number,
+                    Place::Rotation => self.soil[id.index()].rocking = number,
+                    _ => self.soil[id.index()].sway = number,
                 }
-                let end = std::iter::once(Share { side, place, weight: 1.0 });
+                let end = std::iter::once(Share { building: id, place, weight: 1.0 });
                 links.push(LinkRow::of(end, (stiffness, dashpot), &self.bodies, &self.floors));
             }
         }
@@ -122,10 +124,11 @@ impl Structure {
             let weighted = |m: usize, i: usize| body.modes.shape[(i, m)] * floors.mass()[body.lanes.start + i];
             LaneMatrix::new(body.modes.omega.len(), body.lanes.start, body.range.start, weighted)
         };
-        let mut body_of = [0; 2];
-        for (b, body) in bodies.iter().enumerate() {
-            body.buildings.iter().for_each(|part| body_of[part.side as usize] = b);
-        }
+        let buildings =
+            || bodies.iter().enumerate().flat_map(|(b, body)| body.buildings.iter().map(move |part| (b, part)));
+        let body_of: Vec<usize> = buildings().map(|(b, _)| b).collect();
+        let before = |sum: &mut usize, floors: usize| Some(std::mem::replace(sum, *sum + floors));
+        let floors_before = buildings().map(|(_, part)| part.floors.len()).scan(0, before).collect();
         let mut structure = Structure {
             lanes,
             omega2: vec![0.0; lanes],
@@ -141,11 +144,12 @@ impl Structure {
             floor_rows: FloorRows::of(&bodies, lanes),
             floors,
             floor_shapes: Vec::new(),
-            body_of,
-            alone: [None, None],
-            shears: [None, None],
+            floors_before,
+            alone: body_of.iter().map(|_| None).collect(),
+            shears: body_of.iter().map(|_| None).collect(),
             links: Vec::new(),
-            soil: [SoilRows::default(); 2],
+            soil: vec![SoilRows::default(); body_of.len()],
+            body_of,
             bodies: Vec::new(),
         };
         bodies.iter().for_each(|body| structure.spread(body));
@@ -197,43 +201,48 @@ impl Structure {
         self.flight.as_ref().map_or(self, |(_, moving)| moving)
     }
 
+    /// Which buildings there are, from left to right.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = BuildingId> + Clone + use<> {
+        BuildingId::row_of(self.body_of.len())
+    }
+
     /// The body of a building.
-    pub fn body(&self, side: Side) -> &Body {
-        &self.bodies[self.body_of[side as usize]]
+    pub fn body(&self, id: BuildingId) -> &Body {
+        &self.bodies[self.body_of[id.index()]]
     }
 
     /// The modes of one building by itself, on a fixed base.
-    pub fn modes(&self, side: Side) -> &Modes {
-        self.alone[side as usize].as_ref().unwrap_or(&self.body(side).modes)
+    pub fn modes(&self, id: BuildingId) -> &Modes {
+        self.alone[id.index()].as_ref().unwrap_or(&self.body(id).modes)
     }
 
     /// The rows of the base shear over displacements and velocities of all modes, where links or soil act on the building.
-    pub fn shear_rows(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
-        self.shears[side as usize].as_ref().map(|shear| &shear.of_modes)
+    pub fn shear_rows(&self, id: BuildingId) -> Option<&[Vec<f64>; 2]> {
+        self.shears[id.index()].as_ref().map(|shear| &shear.of_modes)
     }
 
     /// The same over those of its floors and its foundation.
-    pub fn shear_rows_of_floors(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
-        self.shears[side as usize].as_ref().map(|shear| &shear.of_floors)
+    pub fn shear_rows_of_floors(&self, id: BuildingId) -> Option<&[Vec<f64>; 2]> {
+        self.shears[id.index()].as_ref().map(|shear| &shear.of_floors)
     }
 
     /// Number of floors of one building.
-    pub fn floors(&self, side: Side) -> usize {
-        self.floors.lanes_of(side as usize).len()
+    pub fn floors(&self, id: BuildingId) -> usize {
+        self.floors.lanes_of(id).len()
     }
 
-    /// Number of a floor among those of both buildings, the left one's first.
-    pub fn number(&self, side: Side, floor: usize) -> usize {
-        if side == Side::Left { floor } else { self.floors(Side::Left) + floor }
+    /// Number of a floor among those of all buildings, from left to right.
+    pub fn number(&self, id: BuildingId, floor: usize) -> usize {
+        self.floors_before[id.index()] + floor
     }
 
-    /// Number of floors of both buildings.
-    pub fn floors_of_both(&self) -> usize {
-        self.floors(Side::Left) + self.floors(Side::Right)
+    /// Number of all floors.
+    pub fn floors_of_all(&self) -> usize {
+        self.ids().map(|id| self.floors(id)).sum()
     }
 
-    /// Number of modes of both buildings.
-    pub fn modes_of_both(&self) -> usize {
+    /// Number of all modes.
+    pub fn modes_of_all(&self) -> usize {
         self.bodies.iter().map(|body| body.modes.omega.len()).sum()
     }
 
@@ -272,10 +281,10 @@ impl Structure {
     }
 
     /// Adds the modal vector of displacements or velocities of one building's floors: shape' M u.
-    pub fn add_modal(&self, side: Side, floors: &[f64], modal: &mut [f64]) {
-        let (body, mass) = (self.body(side), self.floors.of_building(side as usize, self.floors.mass()));
+    pub fn add_modal(&self, id: BuildingId, floors: &[f64], modal: &mut [f64]) {
+        let (body, mass) = (self.body(id), self.floors.of_building(id, self.floors.mass()));
         for (modal, column) in modal[body.range.clone()].iter_mut().zip(body.modes.shape.column_iter()) {
-            let own = column.iter().skip(body.row(side, 0));
+            let own = column.iter().skip(body.row(id, 0));
             *modal += own.zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum::<f64>();
         }
     }
@@ -334,11 +343,11 @@ impl Structure {
     }
 
     /// Force of a building on its base, N: sum over its floors of K u + C v.
-    pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
-        if let Some([on_q, on_v]) = self.shear_rows(side) {
+    pub fn base_shear(&self, id: BuildingId, q: &[f64], v: &[f64]) -> f64 {
+        if let Some([on_q, on_v]) = self.shear_rows(id) {
             return dot(on_q, q) + dot(on_v, v);
         }
-        let Body { modes, range, .. } = self.body(side);
+        let Body { modes, range, .. } = self.body(id);
         let offset = range.start;
         let mut shear = 0.0;
         for (m, participation) in modes.participation.iter().enumerate() {

@@ -92,6 +92,7 @@ mod tests {
     fn building(floors: usize, stiffness: Stiffness) -> Building {
         let rest = vec![0.0; floors];
         Building {
+            name: "left".to_owned(),
             mass: vec![2.0; floors],
             stiffness,
             damping: Damping::Ratio(0.0),

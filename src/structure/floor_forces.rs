@@ -2,16 +2,16 @@
 
 use super::bodies::Body;
 use super::equations::Structure;
-use crate::scene::{Place, Side};
+use crate::scene::{BuildingId, Place};
 
 /// Number of floor forces that are projected on the modes at a time.
 const AT_ONCE: usize = 8;
 
 impl Structure {
     /// Adds the modal load of a force, N, on one floor.
-    pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let body = self.body(side);
-        let (Body { modes, range, .. }, row) = (body, body.row(side, floor));
+    pub fn add_floor_force(&self, id: BuildingId, floor: usize, force: f64, load: &mut [f64]) {
+        let body = self.body(id);
+        let (Body { modes, range, .. }, row) = (body, body.row(id, floor));
         let shapes = self.floor_shapes.get(row * self.lanes..).and_then(|row| row.get(range.clone()));
         match shapes {
             Some(row) => add_multiple(row, force, &mut load[range.clone()]),
@@ -24,11 +24,11 @@ impl Structure {
     }
 
     /// Adds the modal load of a force, N, or a moment, N m, on one displacement of a building, if it has that.
-    pub fn add_force(&self, side: Side, place: Place, force: f64, load: &mut [f64]) {
-        match (place, self.body(side).row_of(side, place)) {
-            (Place::Floor(floor), _) => self.add_floor_force(side, floor, force, load),
+    pub fn add_force(&self, id: BuildingId, place: Place, force: f64, load: &mut [f64]) {
+        match (place, self.body(id).row_of(id, place)) {
+            (Place::Floor(floor), _) => self.add_floor_force(id, floor, force, load),
             (_, Some(row)) => {
-                let Body { modes, range, .. } = self.body(side);
+                let Body { modes, range, .. } = self.body(id);
                 for (shape, load) in modes.shape.row(row).iter().zip(&mut load[range.clone()]) {
                     *load += shape * force;
                 }
@@ -38,15 +38,15 @@ impl Structure {
     }
 
     /// Adds the modal load of forces, N, on some floors of a building: to the same bits as one after the other.
-    pub fn add_floor_forces(&self, side: Side, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
-        let (range, first) = (self.body(side).range.clone(), self.body(side).row(side, 0));
+    pub fn add_floor_forces(&self, id: BuildingId, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
+        let (range, first) = (self.body(id).range.clone(), self.body(id).row(id, 0));
         let (mut group, mut count) = ([(0, 0.0); AT_ONCE], 0);
         for force in forces {
             group[count] = force;
             count += 1;
             if count == AT_ONCE {
                 match self.floor_shapes.is_empty() {
-                    true => group.iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load)),
+                    true => group.iter().for_each(|&(floor, force)| self.add_floor_force(id, floor, force, load)),
                     false => {
                         let rows = group.map(|(floor, force)| (first + floor, force));
                         add_multiples(&self.floor_shapes, (self.lanes, range.start), &rows, &mut load[range.clone()])
@@ -55,7 +55,7 @@ impl Structure {
                 count = 0;
             }
         }
-        group[..count].iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load));
+        group[..count].iter().for_each(|&(floor, force)| self.add_floor_force(id, floor, force, load));
     }
 
     /// Lays out the shapes floor by floor: for forces on all floors, which are projected on the modes again and again.

@@ -1,10 +1,10 @@
-//! The two buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
+//! The buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
 //! building, each floor is coupled to its neighbours only.
 //!
-//! Both buildings' floors stand in one vector, the left building's first. After those of a building on soil stand the sway and
-//! the rotation of its foundation, of which its mass and moment of inertia are. Where they are many each building begins with a
-//! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of
-//! its own.
+//! All floors stand in one vector, building by building from left to right. After those of a building on soil stand the sway and
+//! the rotation of its foundation, of which its mass and moment of inertia are. Each body begins with a block of lanes, so
+//! that floors of one level stand in the same place of a block, and a building by itself is whole blocks of its own; but for
+//! two buildings of few floors, and two on soil, which stand without a gap.
 //!
 //! ```text
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
@@ -14,16 +14,12 @@ use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::{ModalDamping, Modes, rayleigh_factors};
 use super::soil;
 use crate::numerics::polynomial::each;
-use crate::scene::{Building, Damping, Place, Places, Side, Stiffness};
+use crate::scene::{Building, BuildingId, Damping, Place, Places, Stiffness};
 use std::ops::Range;
 
-/// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
+/// All buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
 #[derive(Clone, Debug)]
 pub struct Floors {
-    /// Lane of the lowest floor of each building.
-    first: [usize; 2],
-    /// The displacements of each building.
-    places: [Places; 2],
     /// kg.
     mass: Vec<f64>,
     /// 1/kg.
@@ -31,10 +27,10 @@ pub struct Floors {
     /// N/m, of the storey below each floor of a shear building.
     storey: Vec<f64>,
     blocks: Vec<Neighbours>,
-    buildings: [Blocks; 2],
+    buildings: Vec<Standing>,
     /// The displacements or velocities of floors at rest: zeros.
     pub rest: Vec<f64>,
-    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping and on no soil,
+    /// Whether all stand in blocks of their own and are shear buildings with no more than Rayleigh damping and on no soil,
     /// so that each floor is coupled to its neighbours only.
     is_sparse: bool,
 }
@@ -46,6 +42,16 @@ struct Neighbours {
     below: Lane,
     /// The same of the storey above.
     above: Lane,
+}
+
+/// A building among all.
+#[derive(Clone, Debug)]
+struct Standing {
+    /// Lane of its lowest floor.
+    first: usize,
+    /// Its displacements.
+    places: Places,
+    blocks: Blocks,
 }
 
 /// The blocks of a building and its Rayleigh damping.
@@ -77,42 +83,48 @@ impl Neighbours {
 }
 
 impl Floors {
-    /// Lane of the right building's lowest floor, and the lanes that a vector of all floors needs.
-    fn layout(left: usize, right: usize) -> (usize, usize) {
-        let lanes = |second: usize| (second + right).next_multiple_of(LANES);
-        let second = if lanes(left) <= FEW_BLOCKS * LANES { left } else { left.next_multiple_of(LANES) };
-        (second, lanes(second))
+    /// Lane of the lowest floor of each building, and the lanes that a vector of all floors needs, from the buildings of each
+    /// body and the number of displacements of each.
+    fn layout(bodies: &[Vec<BuildingId>], counts: &[usize], are_linked: bool) -> (Vec<usize>, usize) {
+        let all: usize = counts.iter().sum();
+        let is_packed = counts.len() <= 2 && (are_linked || all <= FEW_BLOCKS * LANES);
+        let (mut first, mut next) = (Vec::new(), 0_usize);
+        for body in bodies {
+            next = if is_packed { next } else { next.next_multiple_of(LANES) };
+            for id in body {
+                first.push(next);
+                next += counts[id.index()];
+            }
+        }
+        (first, next.next_multiple_of(LANES))
     }
 
-    /// For two buildings and their modes, which may be linked or stand on soil.
-    pub fn new(buildings: [&Building; 2], modes: &[Modes; 2], are_linked: bool) -> Floors {
-        let places = buildings.map(Places::of);
-        let [left, right] = places.each_ref().map(Places::count);
-        let (second, lanes) = match are_linked {
-            true => (left, (left + right).next_multiple_of(LANES)),
-            false => Floors::layout(left, right),
-        };
+    /// For buildings with their modes, which links may join to these bodies; `are_linked` if links or soil act on any.
+    pub fn new((buildings, modes): (&[Building], &[Modes]), bodies: &[Vec<BuildingId>], are_linked: bool) -> Floors {
+        let places: Vec<Places> = buildings.iter().map(Places::of).collect();
+        let counts: Vec<usize> = places.iter().map(Places::count).collect();
+        let (first, lanes) = Floors::layout(bodies, &counts, are_linked);
         let zeros = vec![0.0; lanes];
+        let standing = |(first, places)| Standing { first, places, blocks: Blocks::default() };
         let mut floors = Floors {
-            first: [0, second],
-            places,
+            is_sparse: first.iter().all(|first| first.is_multiple_of(LANES)) && !are_linked,
             mass: zeros.clone(),
             inverse_mass: zeros.clone(),
             storey: zeros.clone(),
             blocks: vec![Neighbours::default(); zeros.len() / LANES],
-            buildings: [Blocks::default(); 2],
+            buildings: first.into_iter().zip(places).map(standing).collect(),
             rest: zeros,
-            is_sparse: second.is_multiple_of(LANES) && !are_linked,
         };
-        for side in 0..2 {
-            floors.lay_out(side, buildings[side], &modes[side]);
+        for (id, (building, modes)) in BuildingId::row_of(buildings.len()).zip(buildings.iter().zip(modes)) {
+            floors.lay_out(id, building, modes);
         }
         floors
     }
 
-    fn lay_out(&mut self, side: usize, building: &Building, modes: &Modes) {
-        let (first, n) = (self.first[side], self.places[side].floors);
-        for (i, mass) in soil::inertias(building, &self.places[side]).into_iter().enumerate() {
+    fn lay_out(&mut self, id: BuildingId, building: &Building, modes: &Modes) {
+        let Standing { first, places, .. } = self.buildings[id.index()].clone();
+        let n = places.floors;
+        for (i, mass) in soil::inertias(building, &places).into_iter().enumerate() {
             self.mass[first + i] = mass;
             self.inverse_mass[first + i] = 1.0 / mass;
         }
@@ -127,7 +139,7 @@ impl Floors {
             }
             Stiffness::Matrix(_) => self.is_sparse = false,
         }
-        let blocks = &mut self.buildings[side];
+        let blocks = &mut self.buildings[id.index()].blocks;
         (blocks.first, blocks.end) = (first / LANES, (first + n).div_ceil(LANES));
         match (&building.damping, &modes.damping) {
             (_, ModalDamping::Diagonal(c)) if n == 1 => blocks.on_mass = c[0],
@@ -146,53 +158,56 @@ impl Floors {
     }
 
     /// Lane of a floor, counted from 0.
-    pub fn lane(&self, side: usize, floor: usize) -> usize {
-        self.first[side] + floor
+    pub fn lane(&self, id: BuildingId, floor: usize) -> usize {
+        self.buildings[id.index()].first + floor
     }
 
     /// Lanes of the floors of one building.
-    pub fn lanes_of(&self, side: usize) -> Range<usize> {
-        self.first[side]..self.first[side] + self.places[side].floors
+    pub fn lanes_of(&self, id: BuildingId) -> Range<usize> {
+        let Standing { first, places, .. } = &self.buildings[id.index()];
+        *first..*first + places.floors
     }
 
     /// Lanes of the floors and of the foundation of one building.
-    pub fn lanes_with_foundation(&self, side: usize) -> Range<usize> {
-        self.first[side]..self.first[side] + self.places[side].count()
+    pub fn lanes_with_foundation(&self, id: BuildingId) -> Range<usize> {
+        let Standing { first, places, .. } = &self.buildings[id.index()];
+        *first..*first + places.count()
     }
 
     /// Lane of a displacement of a building, where there is one.
-    pub fn lane_of(&self, side: Side, place: Place) -> Option<usize> {
-        Some(self.first[side as usize] + self.places[side as usize].number(place)?)
+    pub fn lane_of(&self, id: BuildingId, place: Place) -> Option<usize> {
+        let Standing { first, places, .. } = &self.buildings[id.index()];
+        Some(first + places.number(place)?)
     }
 
     /// What is taken from the motion of a floor for the drift of the storey below it, from a motion of all floors.
-    pub fn below(&self, side: Side, storey: usize, motion: &[f64]) -> f64 {
-        let taken = |(place, weight): (Place, f64)| Some(-weight * motion[self.lane_of(side, place)?]);
-        self.places[side as usize].drift(storey).skip(1).filter_map(taken).sum()
+    pub fn below(&self, id: BuildingId, storey: usize, motion: &[f64]) -> f64 {
+        let taken = |(place, weight): (Place, f64)| Some(-weight * motion[self.lane_of(id, place)?]);
+        self.places(id).drift(storey).skip(1).filter_map(taken).sum()
     }
 
     /// Writes the drifts of the storeys of a building in a motion of all floors.
-    pub fn set_drifts(&self, side: Side, motion: &[f64], drifts: &mut [f64]) {
-        self.combine(side, (motion, |motion, below| motion - below, |storey| self.below(side, storey, motion)), drifts);
+    pub fn set_drifts(&self, id: BuildingId, motion: &[f64], drifts: &mut [f64]) {
+        self.combine(id, (motion, |motion, below| motion - below, |storey| self.below(id, storey, motion)), drifts);
     }
 
     /// Writes bounds on them, from bounds on the magnitudes of all motions.
-    pub fn bound_drifts(&self, side: Side, sizes: &[f64], bounds: &mut [f64]) {
-        let size = |(place, weight): (Place, f64)| Some(weight.abs() * sizes[self.lane_of(side, place)?]);
-        let below = |storey: usize| self.places[side as usize].drift(storey).skip(1).filter_map(size).sum();
-        self.combine(side, (sizes, |size, below| size + below, below), bounds);
+    pub fn bound_drifts(&self, id: BuildingId, sizes: &[f64], bounds: &mut [f64]) {
+        let size = |(place, weight): (Place, f64)| Some(weight.abs() * sizes[self.lane_of(id, place)?]);
+        let below = |storey: usize| self.places(id).drift(storey).skip(1).filter_map(size).sum();
+        self.combine(id, (sizes, |size, below| size + below, below), bounds);
     }
 
     /// Combines each floor with the one below it, or on soil with what is `below` it.
     fn combine(
         &self,
-        side: Side,
+        id: BuildingId,
         (of, both, below): (&[f64], impl Fn(f64, f64) -> f64, impl Fn(usize) -> f64),
         out: &mut [f64],
     ) {
-        let lanes = self.lanes_of(side as usize);
+        let lanes = self.lanes_of(id);
         let (of, out) = (&of[lanes.clone()], &mut out[lanes]);
-        if !self.places[side as usize].are_of_floors() {
+        if !self.places(id).are_of_floors() {
             for (storey, (out, of)) in out.iter_mut().zip(of).enumerate() {
                 *out = both(*of, below(storey));
             }
@@ -204,13 +219,13 @@ impl Floors {
     }
 
     /// The displacements of a building.
-    pub fn places(&self, side: Side) -> &Places {
-        &self.places[side as usize]
+    pub fn places(&self, id: BuildingId) -> &Places {
+        &self.buildings[id.index()].places
     }
 
     /// The floors of one building in a vector of all.
-    pub fn of_building<'a>(&self, side: usize, all: &'a [f64]) -> &'a [f64] {
-        &all[self.lanes_of(side)]
+    pub fn of_building<'a>(&self, id: BuildingId, all: &'a [f64]) -> &'a [f64] {
+        &all[self.lanes_of(id)]
     }
 
     /// 1/kg of a lane.
@@ -226,8 +241,8 @@ impl Floors {
 
     /// Minus the acceleration of a lane by that of the ground: 0 of the rotation of a foundation.
     pub fn share_of_ground(&self, lane: usize) -> f64 {
-        let is_rotation = |side: &Side| self.lane_of(*side, Place::Rotation) == Some(lane);
-        if Side::BOTH.iter().any(is_rotation) { 0.0 } else { 1.0 }
+        let is_rotation = |id: BuildingId| self.lane_of(id, Place::Rotation) == Some(lane);
+        if BuildingId::row_of(self.buildings.len()).any(is_rotation) { 0.0 } else { 1.0 }
     }
 
     /// `out` -= M^-1 (K u + rate C v), m/s^2 for `rate` 1.
@@ -243,14 +258,14 @@ impl Floors {
         let (blocks, count) = (&self.blocks[..], self.blocks.len());
         let [u, v] = [u, v].map(|vector| &vector.as_chunks::<LANES>().0[..count]);
         for building in &self.buildings {
-            building.enter_resistance(blocks, (u, v), rate, &mut out[..count], &entry);
+            building.blocks.enter_resistance(blocks, (u, v), rate, &mut out[..count], &entry);
         }
     }
 
     /// Adds |M^-1 K| x times the first factor and |M^-1 C| x times the second for one building, where each floor is
     /// coupled to its neighbours only.
-    pub fn add_sizes(&self, side: usize, [by_u, by_v]: [f64; 2], x: &[f64], out: &mut [f64]) {
-        let Blocks { first, end, on_mass, on_stiffness } = self.buildings[side];
+    pub fn add_sizes(&self, id: BuildingId, [by_u, by_v]: [f64; 2], x: &[f64], out: &mut [f64]) {
+        let Blocks { first, end, on_mass, on_stiffness } = self.buildings[id.index()].blocks;
         let factors = [by_u + by_v * on_stiffness.abs(), by_v * on_mass.abs()];
         let (x, out) = (x.as_chunks::<LANES>().0, out.as_chunks_mut::<LANES>().0);
         add_sizes(&self.blocks[first..end], factors, &x[first..end], &mut out[first..end]);
@@ -259,7 +274,8 @@ impl Floors {
     /// Kinetic and strain energy, J.
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
-        let below = |lane: usize| if self.first.contains(&lane) { 0.0 } else { u[lane - 1] };
+        let is_lowest = |lane: usize| self.buildings.iter().any(|building| building.first == lane);
+        let below = |lane: usize| if is_lowest(lane) { 0.0 } else { u[lane - 1] };
         let strain: f64 =
             self.storey.iter().zip(u).enumerate().map(|(lane, (k, u))| k * (u - below(lane)) * (u - below(lane))).sum();
         (0.5 * kinetic, 0.5 * strain)
@@ -273,9 +289,9 @@ impl Floors {
     }
 
     /// Force of a building on the ground, N: minus the sum of the masses times the accelerations of [`Floors::resist`].
-    pub fn base_shear(&self, side: usize, resisted: &[f64]) -> f64 {
-        let mass = self.of_building(side, &self.mass);
-        let resisted = self.of_building(side, resisted);
+    pub fn base_shear(&self, id: BuildingId, resisted: &[f64]) -> f64 {
+        let mass = self.of_building(id, &self.mass);
+        let resisted = self.of_building(id, resisted);
         -mass.iter().zip(resisted).map(|(m, a)| m * a).sum::<f64>()
     }
 
@@ -384,7 +400,7 @@ impl Shear {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::{Side, Structure};
+    use crate::structure::Structure;
     use nalgebra::{DMatrix, DVector};
 
     const SHEAR: &str = r#"
@@ -435,7 +451,7 @@ mod tests {
         &weighted * DMatrix::from_diagonal(&DVector::from_column_slice(c)) * weighted.transpose()
     }
 
-    /// Some numbers at the floors of both buildings.
+    /// Some numbers at all floors.
     fn motion(floors: &Floors, seed: f64) -> Vec<f64> {
         let mut motion = floors.ones();
         for (i, value) in motion.iter_mut().enumerate() {
@@ -454,15 +470,15 @@ mod tests {
         let mut resisted = vec![0.0; u.len()];
         floors.resist(&u, &v, 0.7, &mut resisted);
         let (mut strain, mut viscous, mut damped) = (0.0, 0.0, vec![0.0; u.len()]);
-        for (side, building) in [&scene.left, &scene.right].into_iter().enumerate() {
-            let [u, v] = [&u, &v].map(|vector| DVector::from_column_slice(floors.of_building(side, vector)));
-            let (k, c) = (stiffness(building), damping(building, structure.modes(Side::BOTH[side])));
+        for (id, building) in scene.ids().zip(&scene.buildings) {
+            let [u, v] = [&u, &v].map(|vector| DVector::from_column_slice(floors.of_building(id, vector)));
+            let (k, c) = (stiffness(building), damping(building, structure.modes(id)));
             let force = &k * &u + 0.7 * (&c * &v);
-            let got = floors.of_building(side, &resisted);
+            let got = floors.of_building(id, &resisted);
             for ((f, mass), got) in force.iter().zip(&building.mass).zip(got) {
                 assert!((got + f / mass).abs() <= 1e-13 * force.amax(), "{got} instead of {}", -f / mass);
             }
-            assert!((floors.base_shear(side, &resisted) - force.sum()).abs() <= 1e-12 * force.amax());
+            assert!((floors.base_shear(id, &resisted) - force.sum()).abs() <= 1e-12 * force.amax());
             strain += 0.5 * u.dot(&(&k * &u));
             viscous += v.dot(&(&c * &v));
         }

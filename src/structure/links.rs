@@ -31,19 +31,19 @@ impl LinkRow {
         bodies: &[Body],
         floors: &Floors,
     ) -> LinkRow {
-        let is_of = |body: &Body| ends.clone().any(|end| body.has(end.side));
+        let is_of = |body: &Body| ends.clone().any(|end| body.has(end.building));
         let number = bodies.iter().position(is_of).unwrap_or(0);
         let body = &bodies[number];
         let mut row = vec![0.0; floors.mass().len()];
-        for Share { side, place, weight } in ends.clone() {
-            let Some(at) = body.row_of(side, place) else { continue };
+        for Share { building: id, place, weight } in ends.clone() {
+            let Some(at) = body.row_of(id, place) else { continue };
             let shapes = body.modes.shape.row(at);
             row[body.range.clone()].iter_mut().zip(shapes.iter()).for_each(|(row, shape)| *row += weight * shape);
         }
         LinkRow {
             body: number,
             row,
-            floors: ends.filter_map(|end| Some((floors.lane_of(end.side, end.place)?, end.weight))).collect(),
+            floors: ends.filter_map(|end| Some((floors.lane_of(end.building, end.place)?, end.weight))).collect(),
             stiffness,
             dashpot,
         }

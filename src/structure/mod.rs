@@ -1,7 +1,7 @@
-//! The two buildings: mass, stiffness and damping mode by mode and floor by floor, and their exact response apart from
+//! The buildings: mass, stiffness and damping mode by mode and floor by floor, and their exact response apart from
 //! contact.
 //!
-//! Both buildings' modes stand in one vector, the left building's first, padded with resting modes to a multiple of
+//! The modes of all buildings stand in one vector, from left to right, padded with resting modes to a multiple of
 //! [`LANES`] so that every loop over modes vectorises:
 //!
 //! ```text
@@ -15,7 +15,7 @@
 //! | `complex_modes.rs`, `flight_modes.rs` | where damping couples modes: their complex modes, and the motion in these |
 //! | `soil.rs` | buildings on soil: the stiffness of one, the springs of the soil |
 //! | `base_shear.rs` | the force on its base of a building on which links or soil act |
-//! | `equations.rs` | both buildings mode by mode: equation of motion |
+//! | `equations.rs` | all buildings mode by mode: equation of motion |
 //! | `floor_forces.rs`, `energies.rs` | its loads by forces on floors; energies and powers |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
@@ -27,7 +27,7 @@
 //! | `motion.rs` | displacements with velocities, a load or the ground's acceleration with its rate |
 //! | `lanes.rs`, `lane_matrix.rs`, `floor_rows.rs` | vectors in blocks of four, their sums of products, matrices between them, and single rows of these |
 
-pub use crate::scene::Side;
+pub use crate::scene::BuildingId;
 
 mod base_shear;
 mod block_increments;

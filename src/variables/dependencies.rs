@@ -1,7 +1,7 @@
 //! Which inputs an output depends on at communication points, as the model structure of the description lists them.
 //! Those at the start are in `initial_dependencies.rs`.
 
-use crate::engine::{ContactOutput, FoundationOutput, Input, Output, Side, YieldingOf};
+use crate::engine::{BuildingId, ContactOutput, FoundationOutput, Input, Output, YieldingOf};
 use crate::scene::{ContactPair, Place, Scene, Stiffness};
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ pub enum Dependence {
 }
 
 /// Which displacement of which building.
-pub(super) type Movement = (Side, Place);
+pub(super) type Movement = (BuildingId, Place);
 
 /// Which inputs the outputs of a scene answer to at once, at a communication point at which they are set.
 ///
@@ -80,8 +80,8 @@ impl<'a> Dependencies<'a> {
     /// The inputs that an output answers to, in no order, some maybe more than once, and how.
     pub fn at_communication_points(&self, output: Output) -> Vec<(Input, Dependence)> {
         let place = match output {
-            Output::Acceleration(side, floor) => Some((side, Place::Floor(floor))),
-            Output::Foundation(side, FoundationOutput::Acceleration) => Some((side, Place::Foundation)),
+            Output::Acceleration(id, floor) => Some((id, Place::Floor(floor))),
+            Output::Foundation(id, FoundationOutput::Acceleration) => Some((id, Place::Foundation)),
             Output::Contact(p, ContactOutput::Force) => {
                 let pair = Some(&self.scene.contacts[p]).filter(|pair| pair.law.is_rigid());
                 pair.and_then(|pair| movements(self.scene, pair).first().copied())
@@ -101,8 +101,8 @@ impl<'a> Dependencies<'a> {
 }
 
 /// The inputs of a master that push on something: some that the scene may not have.
-pub(super) fn pushes_on(scene: &Scene, (side, place): Movement) -> Vec<Input> {
-    let building = scene.building(side);
+pub(super) fn pushes_on(scene: &Scene, (id, place): Movement) -> Vec<Input> {
+    let building = scene.building(id);
     let corrections: Vec<usize> = match (&building.stiffness, place) {
         _ if !scene.restoring_corrections => Vec::new(),
         (Stiffness::Matrix(_), _) => place.floor().into_iter().collect(),
@@ -110,27 +110,27 @@ pub(super) fn pushes_on(scene: &Scene, (side, place): Movement) -> Vec<Input> {
         (Stiffness::Shear(_), Place::Foundation) => vec![0],
         (Stiffness::Shear(_), Place::Rotation) => (0..building.mass.len()).collect(),
     };
-    let force = place.floor().map(|floor| Input::Force(side, floor));
-    force.into_iter().chain(corrections.into_iter().map(|number| Input::Correction(side, number))).collect()
+    let force = place.floor().map(|floor| Input::Force(id, floor));
+    force.into_iter().chain(corrections.into_iter().map(|number| Input::Correction(id, number))).collect()
 }
 
 /// The corrections by which a shear is less: some that the scene may not have.
 pub(super) fn corrections_of(scene: &Scene, output: Output) -> Vec<Input> {
-    let (side, numbers) = match output {
+    let (id, numbers) = match output {
         _ if !scene.restoring_corrections => return Vec::new(),
-        Output::BaseShear(side) => match scene.building(side).stiffness {
-            Stiffness::Shear(_) => (side, 0..1),
-            Stiffness::Matrix(_) => (side, 0..scene.building(side).mass.len()),
+        Output::BaseShear(id) => match scene.building(id).stiffness {
+            Stiffness::Shear(_) => (id, 0..1),
+            Stiffness::Matrix(_) => (id, 0..scene.building(id).mass.len()),
         },
-        Output::OfYielding(YieldingOf::Shear, side, storey) => (side, storey..storey + 1),
+        Output::OfYielding(YieldingOf::Shear, id, storey) => (id, storey..storey + 1),
         _ => return Vec::new(),
     };
-    numbers.map(|number| Input::Correction(side, number)).collect()
+    numbers.map(|number| Input::Correction(id, number)).collect()
 }
 
 /// What the row of a contact moves.
 pub(super) fn movements(scene: &Scene, pair: &ContactPair) -> Vec<Movement> {
-    pair.row(scene).map(|share| (share.side, share.place)).collect()
+    pair.row(scene).map(|share| (share.building, share.place)).collect()
 }
 
 /// The numbers of the rows in which each of their movements is.

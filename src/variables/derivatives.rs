@@ -14,11 +14,11 @@ pub const fn highest_output_derivative(scene: &Scene) -> u8 {
 /// The derivative of an initial unknown with respect to a parameter that it depends on, where there is a closed form of it.
 pub fn by_parameter(model: &Model, unknown: Slot, parameter: Parameter) -> Option<f64> {
     match (unknown, parameter) {
-        (Slot::Calculated(Calculated::Frequency(side, mode)), Parameter::Mass(_, floor)) => {
-            model.frequency_by_mass(side, mode, floor)
+        (Slot::Calculated(Calculated::Frequency(id, mode)), Parameter::Mass(_, floor)) => {
+            model.frequency_by_mass(id, mode, floor)
         }
-        (Slot::Calculated(Calculated::Frequency(side, mode)), Parameter::Stiffness(_, storey)) => {
-            model.frequency_by_stiffness(side, mode, storey)
+        (Slot::Calculated(Calculated::Frequency(id, mode)), Parameter::Stiffness(_, storey)) => {
+            model.frequency_by_stiffness(id, mode, storey)
         }
         (Slot::Output(Output::Contact(_, ContactOutput::Penetration)), Parameter::Gap(_)) => Some(-1.0),
         _ => None,

@@ -5,7 +5,7 @@ use super::part::{ACCELERATED, DISPLACEMENT, MOVED, MOVING, NEWTON, RATIO, Scale
 use super::slot::{Calculated, Parameter};
 use super::table::{SharedRule, Table, Type};
 use super::unit::Unit;
-use crate::engine::{FoundationOutput, Output, Side};
+use crate::engine::{BuildingId, FoundationOutput, Output};
 use crate::scene::{FoundationKey, Scene, Soil, rule};
 
 /// Rad and rad/s, at the edge of a foundation of some metres.
@@ -16,10 +16,11 @@ type OfFoundation = (FoundationOutput, &'static str, Scale, &'static str);
 
 impl Table {
     /// What the foundation of a building has, in the ways in which it moves.
-    pub(super) fn add_foundation(&mut self, scene: &Scene, side: Side) {
+    pub(super) fn add_foundation(&mut self, scene: &Scene, id: BuildingId) {
         use FoundationKey as K;
-        let Some(foundation) = &scene.building(side).foundation else { return };
-        let mut rows = self.of_foundation(side);
+        let building = scene.building(id);
+        let Some(foundation) = &building.foundation else { return };
+        let mut rows = self.of_foundation(building);
         for (key, unit, rule, about) in [
             (K::Mass, Unit::Kilogram, rule::MASS, "mass of the foundation"),
             (
@@ -43,7 +44,7 @@ impl Table {
                 "dashpot of the soil against rocking",
             ),
         ] {
-            let parameter = Parameter::Foundation(side, key);
+            let parameter = Parameter::Foundation(id, key);
             let Some(value) = number(scene, parameter) else { continue };
             let row = rows.add(parameter, key.name(), (Type::Real(unit), value), about).under(rule);
             if matches!(key, K::SwayStiffness | K::RockingStiffness) {
@@ -54,17 +55,17 @@ impl Table {
         let outputs = of_sway.chain(foundation.rocking.iter().flat_map(|soil| rocking(*soil)));
         for (of, name, scale, about) in outputs {
             let Some(quantity) = name.strip_prefix("peak_") else {
-                rows.add(Output::Foundation(side, of), name, scale, about);
+                rows.add(Output::Foundation(id, of), name, scale, about);
                 continue;
             };
             if scene.peaks {
                 let when = "of either sign, between communication points and in impacts too";
                 let about = format!("largest {quantity} of the foundation so far, {when}");
-                rows.add(Output::Foundation(side, of), name, scale, &about);
+                rows.add(Output::Foundation(id, of), name, scale, &about);
             }
         }
         let about = "first period on the soil, without damping, over that on a fixed base";
-        rows.add(Calculated::PeriodRatio(side), "period_ratio", RATIO, about);
+        rows.add(Calculated::PeriodRatio(id), "period_ratio", RATIO, about);
     }
 }
 

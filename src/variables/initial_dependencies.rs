@@ -11,7 +11,7 @@ use super::dependencies::{Movement, corrections_of, movements, pushes_on, rows_b
 use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
 use crate::engine::{
-    ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf,
+    BuildingId, ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, PeakOf, StoreyPeak, YieldingOf,
 };
 use crate::scene::{Building, ContactPair, Damping, FoundationKey, Place, Scene, Share, Stiffness};
 use std::collections::HashMap;
@@ -25,7 +25,7 @@ pub struct InitialDependencies<'a> {
     contacts_of: HashMap<Movement, Vec<usize>>,
     links_of: HashMap<Movement, Vec<usize>>,
     /// Whether there may be a C v at the start, left and right.
-    is_damped: [bool; 2],
+    is_damped: Vec<bool>,
 }
 
 /// What of a contact decides what depends on it.
@@ -44,9 +44,9 @@ impl<'a> InitialDependencies<'a> {
         InitialDependencies {
             scene,
             contacts_of: rows_by_movement(contacts.iter().map(|contact| contact.row.iter().copied())),
-            links_of: rows_by_movement(scene.links.iter().map(|link| link.ends().map(|end| (end.side, end.place)))),
+            links_of: rows_by_movement(scene.links.iter().map(|link| link.ends().map(|end| (end.building, end.place)))),
             contacts,
-            is_damped: Side::BOTH.map(|side| is_damped(scene.building(side))),
+            is_damped: scene.buildings.iter().map(is_damped).collect(),
         }
     }
 
@@ -59,9 +59,9 @@ impl<'a> InitialDependencies<'a> {
             Slot::Input(_) | Slot::Parameter(_) => Vec::new(),
         };
         let inputs = match unknown {
-            Slot::Output(Output::Acceleration(side, floor)) => pushes_on(self.scene, (side, Place::Floor(floor))),
-            Slot::Output(Output::Foundation(side, FoundationOutput::Acceleration)) => {
-                pushes_on(self.scene, (side, Place::Foundation))
+            Slot::Output(Output::Acceleration(id, floor)) => pushes_on(self.scene, (id, Place::Floor(floor))),
+            Slot::Output(Output::Foundation(id, FoundationOutput::Acceleration)) => {
+                pushes_on(self.scene, (id, Place::Foundation))
             }
             Slot::Output(output) => corrections_of(self.scene, output),
             Slot::Input(_) | Slot::Parameter(_) | Slot::Calculated(_) => Vec::new(),
@@ -71,17 +71,17 @@ impl<'a> InitialDependencies<'a> {
 
     fn of_calculated(&self, calculated: Calculated) -> Vec<Parameter> {
         match calculated {
-            Calculated::Frequency(side, _) => self.modes(side),
-            Calculated::StabilityCoefficient(side, storey) => {
-                [self.weights(side, &[storey]), vec![Parameter::Stiffness(side, storey)]].concat()
+            Calculated::Frequency(id, _) => self.modes(id),
+            Calculated::StabilityCoefficient(id, storey) => {
+                [self.weights(id, &[storey]), vec![Parameter::Stiffness(id, storey)]].concat()
             }
-            Calculated::CriticalDrift(side, storey) => self.net_storeys(side, &[storey]),
+            Calculated::CriticalDrift(id, storey) => self.net_storeys(id, &[storey]),
             Calculated::SystemFrequency(_) => {
                 let links = (0..self.scene.links.len()).map(Parameter::LinkStiffness);
-                let of_sides = Side::BOTH.into_iter().flat_map(|side| [self.modes(side), soil(side)]).flatten();
-                of_sides.chain(links).collect()
+                let of_buildings = self.scene.ids().flat_map(|id| [self.modes(id), soil(id)]).flatten();
+                of_buildings.chain(links).collect()
             }
-            Calculated::PeriodRatio(side) => [self.modes(side), soil(side)].concat(),
+            Calculated::PeriodRatio(id) => [self.modes(id), soil(id)].concat(),
         }
     }
 
@@ -100,18 +100,18 @@ impl<'a> InitialDependencies<'a> {
             }
             // The largest drift so far is known; the stiffness of the storey is a parameter.
             Output::OfStorey(StoreyPeak::DriftRatio, ..) => Vec::new(),
-            Output::OfStorey(StoreyPeak::Shear, side, storey) => self.storey_that_drifts(side, storey),
-            Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
-                let hits = |p: &usize| self.scene.contacts[*p].columns() == Some((side, storey + 1));
+            Output::OfStorey(StoreyPeak::Shear, id, storey) => self.storey_that_drifts(id, storey),
+            Output::OfStorey(StoreyPeak::ColumnForce, id, storey) => {
+                let hits = |p: &usize| self.scene.contacts[*p].columns() == Some((id, storey + 1));
                 (0..self.contacts.len()).filter(hits).flat_map(|p| self.contact_force(p)).collect()
             }
-            Output::OfYielding(of, side, storey) => self.of_yielding(of, side, storey),
+            Output::OfYielding(of, id, storey) => self.of_yielding(of, id, storey),
             // Whether a storey yields begins with the first step.
             Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => Vec::new(),
-            Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => self.base_shear(side),
-            Output::Peak(PeakOf::StoreyShear(side, storey)) => self.storey_that_drifts(side, storey),
-            Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
-                self.acceleration(side, Place::Floor(floor))
+            Output::BaseShear(id) | Output::Peak(PeakOf::BaseShear(id)) => self.base_shear(id),
+            Output::Peak(PeakOf::StoreyShear(id, storey)) => self.storey_that_drifts(id, storey),
+            Output::Acceleration(id, floor) | Output::Peak(PeakOf::Acceleration(id, floor)) => {
+                self.acceleration(id, Place::Floor(floor))
             }
             Output::Contact(p, of) => self.of_contact(p, of),
             Output::Link(l, LinkOutput::Force) | Output::Peak(PeakOf::LinkForce(l)) => self.link_force(l),
@@ -125,7 +125,7 @@ impl<'a> InitialDependencies<'a> {
                 | LinkOutput::SlipTravel
                 | LinkOutput::Slipping,
             ) => Vec::new(),
-            Output::Foundation(side, FoundationOutput::Acceleration) => self.acceleration(side, Place::Foundation),
+            Output::Foundation(id, FoundationOutput::Acceleration) => self.acceleration(id, Place::Foundation),
             // It begins at rest.
             Output::Foundation(..) => Vec::new(),
             Output::Impacts => {
@@ -135,16 +135,16 @@ impl<'a> InitialDependencies<'a> {
         }
     }
 
-    fn of_yielding(&self, of: YieldingOf, side: Side, storey: usize) -> Vec<Parameter> {
+    fn of_yielding(&self, of: YieldingOf, id: BuildingId, storey: usize) -> Vec<Parameter> {
         match of {
             // What has been dissipated begins with the first step.
             YieldingOf::HystereticEnergy | YieldingOf::CumulativePlasticDrift => Vec::new(),
             YieldingOf::Ductility | YieldingOf::PlasticDrift => {
-                without(self.storey_that_drifts(side, storey), Parameter::PostYieldRatio(side, storey))
+                without(self.storey_that_drifts(id, storey), Parameter::PostYieldRatio(id, storey))
             }
-            YieldingOf::Shear => self.storey_that_drifts(side, storey),
-            YieldingOf::PeakStabilityIndex => self.net_storeys_that_drift(side, [storey]),
-            YieldingOf::ResidualDrift => [self.net_storeys_that_drift(side, [storey]), self.rest(side)].concat(),
+            YieldingOf::Shear => self.storey_that_drifts(id, storey),
+            YieldingOf::PeakStabilityIndex => self.net_storeys_that_drift(id, [storey]),
+            YieldingOf::ResidualDrift => [self.net_storeys_that_drift(id, [storey]), self.rest(id)].concat(),
         }
     }
 
@@ -161,46 +161,46 @@ impl<'a> InitialDependencies<'a> {
     }
 
     /// What modes depend on, and so damping that is given by modes.
-    fn modes(&self, side: Side) -> Vec<Parameter> {
-        let floors = 0..self.scene.building(side).mass.len();
-        floors.flat_map(|i| [Parameter::Mass(side, i), Parameter::Stiffness(side, i)]).collect()
+    fn modes(&self, id: BuildingId) -> Vec<Parameter> {
+        let floors = 0..self.scene.building(id).mass.len();
+        floors.flat_map(|i| [Parameter::Mass(id, i), Parameter::Stiffness(id, i)]).collect()
     }
 
     /// The masses whose weights push any of some storeys on that lean: those above the lowest of them.
-    fn weights(&self, side: Side, storeys: &[usize]) -> Vec<Parameter> {
-        let building = self.scene.building(side);
+    fn weights(&self, id: BuildingId, storeys: &[usize]) -> Vec<Parameter> {
+        let building = self.scene.building(id);
         let leaning = storeys.iter().filter(|storey| building.weighs_by_mass() && building.leans(**storey));
         let floors = leaning.min().map(|lowest| *lowest..building.mass.len());
-        floors.into_iter().flatten().map(|floor| Parameter::Mass(side, floor)).collect()
+        floors.into_iter().flatten().map(|floor| Parameter::Mass(id, floor)).collect()
     }
 
     /// What changes the forces by stiffness and gravity with which storeys resist given drifts.
-    fn net_storeys(&self, side: Side, storeys: &[usize]) -> Vec<Parameter> {
-        let own = storeys.iter().flat_map(|storey| of_storey(side, *storey));
-        own.chain(self.weights(side, storeys)).collect()
+    fn net_storeys(&self, id: BuildingId, storeys: &[usize]) -> Vec<Parameter> {
+        let own = storeys.iter().flat_map(|storey| of_storey(id, *storey));
+        own.chain(self.weights(id, storeys)).collect()
     }
 
     /// The same of those that drift at the start.
-    fn net_storeys_that_drift(&self, side: Side, storeys: impl IntoIterator<Item = usize>) -> Vec<Parameter> {
-        let drifting = storeys.into_iter().filter(|storey| drifts(self.scene.building(side), *storey));
-        self.net_storeys(side, &drifting.collect::<Vec<_>>())
+    fn net_storeys_that_drift(&self, id: BuildingId, storeys: impl IntoIterator<Item = usize>) -> Vec<Parameter> {
+        let drifting = storeys.into_iter().filter(|storey| drifts(self.scene.building(id), *storey));
+        self.net_storeys(id, &drifting.collect::<Vec<_>>())
     }
 
     /// What changes the shear of a storey, if it drifts at the start.
-    fn storey_that_drifts(&self, side: Side, storey: usize) -> Vec<Parameter> {
-        if drifts(self.scene.building(side), storey) { of_storey(side, storey).to_vec() } else { Vec::new() }
+    fn storey_that_drifts(&self, id: BuildingId, storey: usize) -> Vec<Parameter> {
+        if drifts(self.scene.building(id), storey) { of_storey(id, storey).to_vec() } else { Vec::new() }
     }
 
     /// What changes where a storey rests by the others that rest with it: those of a building that leans on its soil, and
     /// all that links join.
-    fn rest(&self, side: Side) -> Vec<Parameter> {
-        let building = self.scene.building(side);
+    fn rest(&self, id: BuildingId) -> Vec<Parameter> {
+        let building = self.scene.building(id);
         let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
         let (is_linked, leans) = (!self.scene.links.is_empty(), rocks && building.has_gravity());
-        let within = || Side::BOTH.into_iter().filter(|s| is_linked || leans && *s == side);
-        let of_storeys = |s: Side| self.net_storeys_that_drift(s, 0..self.scene.building(s).mass.len());
+        let within = || self.scene.ids().filter(|s| is_linked || leans && *s == id);
+        let of_storeys = |s: BuildingId| self.net_storeys_that_drift(s, 0..self.scene.building(s).mass.len());
         let mut parameters: Vec<Parameter> = within().flat_map(of_storeys).collect();
-        let is_displaced = |s: Side| self.scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
+        let is_displaced = |s: BuildingId| self.scene.building(s).initial_displacement.iter().any(|u| *u != 0.0);
         if within().any(is_displaced) {
             parameters.extend(within().map(|s| Parameter::Foundation(s, FoundationKey::RockingStiffness)));
         }
@@ -212,23 +212,23 @@ impl<'a> InitialDependencies<'a> {
     }
 
     /// The sum of K u is the force of the lowest storey.
-    fn base_shear(&self, side: Side) -> Vec<Parameter> {
-        [self.net_storeys_that_drift(side, [0]), self.damping_force(side, [0, 0])].concat()
+    fn base_shear(&self, id: BuildingId) -> Vec<Parameter> {
+        [self.net_storeys_that_drift(id, [0]), self.damping_force(id, [0, 0])].concat()
     }
 
     /// Forces on a floor over its mass, or on a foundation that nothing has moved yet.
-    fn acceleration(&self, side: Side, place: Place) -> Vec<Parameter> {
-        let pushing = |of: &HashMap<Movement, Vec<usize>>| of.get(&(side, place)).cloned().unwrap_or_default();
+    fn acceleration(&self, id: BuildingId, place: Place) -> Vec<Parameter> {
+        let pushing = |of: &HashMap<Movement, Vec<usize>>| of.get(&(id, place)).cloned().unwrap_or_default();
         let (contacts, links) = (pushing(&self.contacts_of), pushing(&self.links_of));
         let storeys = match place {
             Place::Floor(floor) => [floor, floor + 1],
             Place::Foundation | Place::Rotation => [0, 0],
         };
-        let mut parameters = self.net_storeys_that_drift(side, storeys);
-        parameters.extend(self.damping_force(side, storeys));
+        let mut parameters = self.net_storeys_that_drift(id, storeys);
+        parameters.extend(self.damping_force(id, storeys));
         parameters.extend(contacts.iter().flat_map(|p| self.contact_force(*p)));
         parameters.extend(links.iter().flat_map(|l| self.link_force(*l)));
-        let building = self.scene.building(side);
+        let building = self.scene.building(id);
         let is_strained = match &building.stiffness {
             Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
             Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
@@ -236,24 +236,24 @@ impl<'a> InitialDependencies<'a> {
         let is_forced = self.scene.floor_forces && place != Place::Foundation || self.scene.restoring_corrections;
         let is_held = || links.iter().any(|l| self.closing(*l) != [0.0; 2]);
         let is_pushed = || contacts.iter().any(|p| self.is_pushed(*p));
-        if is_forced || is_strained || self.is_damped[side as usize] || is_held() || is_pushed() {
+        if is_forced || is_strained || self.is_damped[id.index()] || is_held() || is_pushed() {
             parameters.push(match place {
-                Place::Floor(floor) => Parameter::Mass(side, floor),
-                Place::Foundation | Place::Rotation => Parameter::Foundation(side, FoundationKey::Mass),
+                Place::Floor(floor) => Parameter::Mass(id, floor),
+                Place::Foundation | Place::Rotation => Parameter::Foundation(id, FoundationKey::Mass),
             });
         }
         parameters
     }
 
     /// C v of some floors of a building, which storeys with dashpots of their own give.
-    fn damping_force(&self, side: Side, storeys: [usize; 2]) -> Vec<Parameter> {
-        let building = self.scene.building(side);
+    fn damping_force(&self, id: BuildingId, storeys: [usize; 2]) -> Vec<Parameter> {
+        let building = self.scene.building(id);
         let moving = storeys.into_iter().filter(|storey| differ(&building.initial_velocity, *storey));
-        let mut parameters: Vec<Parameter> = moving.map(|storey| Parameter::Dashpot(side, storey)).collect();
-        if self.is_damped[side as usize] {
-            parameters.push(Parameter::DampingRatio(side));
+        let mut parameters: Vec<Parameter> = moving.map(|storey| Parameter::Dashpot(id, storey)).collect();
+        if self.is_damped[id.index()] {
+            parameters.push(Parameter::DampingRatio(id));
             if !matches!(building.damping, Damping::Matrix(_) | Damping::Dashpots(_)) {
-                parameters.extend(self.modes(side));
+                parameters.extend(self.modes(id));
             }
         }
         parameters
@@ -262,7 +262,7 @@ impl<'a> InitialDependencies<'a> {
     /// Displacement and velocity of a link at the start.
     fn closing(&self, l: usize) -> [f64; 2] {
         let of = |motion: fn(&Building) -> &[f64]| {
-            let at_start = |end: Share| Building::at_start(motion(self.scene.building(end.side)), end.place);
+            let at_start = |end: Share| Building::at_start(motion(self.scene.building(end.building)), end.place);
             self.scene.links[l].ends().map(|end| end.weight * at_start(end)).sum()
         };
         [of(|building| &building.initial_displacement), of(|building| &building.initial_velocity)]
@@ -297,29 +297,29 @@ impl<'a> InitialDependencies<'a> {
         parameters.extend([Parameter::ContactStiffness(p), Parameter::Exponent(p)]);
         if self.contacts[p].dashpot_acts {
             parameters.extend([Parameter::Restitution(p), Parameter::Position(p)]);
-            parameters.extend(self.contacts[p].row.iter().map(|(side, place)| inertia(*side, *place)));
+            parameters.extend(self.contacts[p].row.iter().map(|(id, place)| inertia(*id, *place)));
         }
         parameters
     }
 
     /// At the start there has been no work; the energies are those of the buildings.
     fn energy(&self, term: EnergyOutput) -> Vec<Parameter> {
-        let floors = |side: Side| 0..self.scene.building(side).mass.len();
-        let drifting = |side: Side| floors(side).filter(move |i| drifts(self.scene.building(side), *i));
+        let floors = |id: BuildingId| 0..self.scene.building(id).mass.len();
+        let drifting = |id: BuildingId| floors(id).filter(move |i| drifts(self.scene.building(id), *i));
         match term {
             EnergyOutput::Kinetic => {
-                let moves = |side: Side, i: usize| self.scene.building(side).initial_velocity[i] != 0.0;
-                let moving = |side: Side| floors(side).filter(move |i| moves(side, *i));
-                Side::BOTH.into_iter().flat_map(|side| moving(side).map(move |i| Parameter::Mass(side, i))).collect()
+                let moves = |id: BuildingId, i: usize| self.scene.building(id).initial_velocity[i] != 0.0;
+                let moving = |id: BuildingId| floors(id).filter(move |i| moves(id, *i));
+                self.scene.ids().flat_map(|id| moving(id).map(move |i| Parameter::Mass(id, i))).collect()
             }
             EnergyOutput::Strain => {
-                let storeys = |side: Side| drifting(side).flat_map(move |storey| of_storey(side, storey));
+                let storeys = |id: BuildingId| drifting(id).flat_map(move |storey| of_storey(id, storey));
                 let springs = (0..self.scene.links.len()).flat_map(|l| self.spring(l));
-                Side::BOTH.into_iter().flat_map(storeys).chain(springs).collect()
+                self.scene.ids().flat_map(storeys).chain(springs).collect()
             }
             EnergyOutput::Gravity => {
-                let weights = |side: Side| self.weights(side, &drifting(side).collect::<Vec<_>>());
-                Side::BOTH.into_iter().flat_map(weights).collect()
+                let weights = |id: BuildingId| self.weights(id, &drifting(id).collect::<Vec<_>>());
+                self.scene.ids().flat_map(weights).collect()
             }
             _ => Vec::new(),
         }
@@ -329,7 +329,7 @@ impl<'a> InitialDependencies<'a> {
 impl Contact {
     fn of(scene: &Scene, pair: &ContactPair) -> Contact {
         let displacement =
-            |share: Share| Building::at_start(&scene.building(share.side).initial_displacement, share.place);
+            |share: Share| Building::at_start(&scene.building(share.building).initial_displacement, share.place);
         Contact {
             row: movements(scene, pair),
             is_displaced: pair.row(scene).any(|share| displacement(share) != 0.0),
@@ -344,21 +344,21 @@ fn without(mut parameters: Vec<Parameter>, one: Parameter) -> Vec<Parameter> {
 }
 
 /// What moves with a foundation, and the springs below it.
-fn soil(side: Side) -> Vec<Parameter> {
-    FoundationKey::OF_FREQUENCIES.map(|key| Parameter::Foundation(side, key)).to_vec()
+fn soil(id: BuildingId) -> Vec<Parameter> {
+    FoundationKey::OF_FREQUENCIES.map(|key| Parameter::Foundation(id, key)).to_vec()
 }
 
 /// What changes the shear of a storey at a given drift: its stiffness, and its yield line.
-fn of_storey(side: Side, storey: usize) -> [Parameter; 3] {
-    [Parameter::Stiffness(side, storey), Parameter::YieldForce(side, storey), Parameter::PostYieldRatio(side, storey)]
+fn of_storey(id: BuildingId, storey: usize) -> [Parameter; 3] {
+    [Parameter::Stiffness(id, storey), Parameter::YieldForce(id, storey), Parameter::PostYieldRatio(id, storey)]
 }
 
 /// What a displacement moves.
-fn inertia(side: Side, place: Place) -> Parameter {
+fn inertia(id: BuildingId, place: Place) -> Parameter {
     match place {
-        Place::Floor(floor) => Parameter::Mass(side, floor),
-        Place::Foundation => Parameter::Foundation(side, FoundationKey::Mass),
-        Place::Rotation => Parameter::Foundation(side, FoundationKey::Inertia),
+        Place::Floor(floor) => Parameter::Mass(id, floor),
+        Place::Foundation => Parameter::Foundation(id, FoundationKey::Mass),
+        Place::Rotation => Parameter::Foundation(id, FoundationKey::Inertia),
     }
 }
 
@@ -397,7 +397,7 @@ const DEEP: f64 = 1e6;
 /// depends on the restitution and on the masses of both floors.
 fn dashpot_acts(scene: &Scene, pair: &ContactPair) -> bool {
     let velocity =
-        |share: Share| share.weight * Building::at_start(&scene.building(share.side).initial_velocity, share.place);
+        |share: Share| share.weight * Building::at_start(&scene.building(share.building).initial_velocity, share.place);
     let rate: f64 = pair.row(scene).map(velocity).sum();
     let mut law = pair.law;
     law.restitution = 0.5;

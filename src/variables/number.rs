@@ -1,8 +1,7 @@
 //! Where the number of each parameter stands in a scene.
 
 use super::slot::Parameter;
-use crate::engine::Side;
-use crate::scene::{Building, Damping, Face, Foundation, FoundationKey as Key, Scaling, Scene, Stiffness};
+use crate::scene::{Damping, Face, Foundation, FoundationKey as Key, Scaling, Scene, Stiffness};
 
 /// One match for reading and for writing: `$building` takes a building of the scene, `$as_ref` what is in an `Option`,
 /// and `$mut` is `mut` where the number is to be changed, nothing where it is read.
@@ -14,26 +13,26 @@ macro_rules! number {
                 Scaling::Scale(factor) => Some(factor),
                 Scaling::Pga(_) => None,
             },
-            Parameter::Mass(side, floor) => Some(&$($mut)? $building($scene, side).mass[floor]),
-            Parameter::Stiffness(side, storey) => match &$($mut)? $building($scene, side).stiffness {
+            Parameter::Mass(id, floor) => Some(&$($mut)? $building($scene, id).mass[floor]),
+            Parameter::Stiffness(id, storey) => match &$($mut)? $building($scene, id).stiffness {
                 Stiffness::Shear(storeys) => Some(&$($mut)? storeys[storey]),
                 Stiffness::Matrix(_) => None,
             },
-            Parameter::DampingRatio(side) => match &$($mut)? $building($scene, side).damping {
+            Parameter::DampingRatio(id) => match &$($mut)? $building($scene, id).damping {
                 Damping::Ratio(ratio) => Some(ratio),
                 _ => None,
             },
-            Parameter::Dashpot(side, storey) => match &$($mut)? $building($scene, side).damping {
+            Parameter::Dashpot(id, storey) => match &$($mut)? $building($scene, id).damping {
                 Damping::Dashpots(storeys) => Some(&$($mut)? storeys[storey]),
                 _ => None,
             },
-            Parameter::YieldForce(side, storey) => {
-                $building($scene, side).yielding.$as_ref().map(|yielding| &$($mut)? yielding.force[storey])
+            Parameter::YieldForce(id, storey) => {
+                $building($scene, id).yielding.$as_ref().map(|yielding| &$($mut)? yielding.force[storey])
             }
-            Parameter::PostYieldRatio(side, storey) => {
-                $building($scene, side).yielding.$as_ref().map(|yielding| &$($mut)? yielding.ratio[storey])
+            Parameter::PostYieldRatio(id, storey) => {
+                $building($scene, id).yielding.$as_ref().map(|yielding| &$($mut)? yielding.ratio[storey])
             }
-            Parameter::Foundation(side, key) => match (key, &$($mut)? $building($scene, side).foundation) {
+            Parameter::Foundation(id, key) => match (key, &$($mut)? $building($scene, id).foundation) {
                 (Key::Mass, Some(Foundation { mass, .. })) => Some(mass),
                 (Key::Inertia, Some(Foundation { inertia, rocking: Some(_), .. })) => Some(inertia),
                 (Key::SwayStiffness, Some(Foundation { sway: Some(soil), .. }))
@@ -71,12 +70,5 @@ pub(super) fn number(scene: &Scene, parameter: Parameter) -> Option<f64> {
 
 /// The same, to be changed.
 pub(super) fn number_mut(scene: &mut Scene, parameter: Parameter) -> Option<&mut f64> {
-    number!(scene, parameter, building_mut, as_mut, mut)
-}
-
-fn building_mut(scene: &mut Scene, side: Side) -> &mut Building {
-    match side {
-        Side::Left => &mut scene.left,
-        Side::Right => &mut scene.right,
-    }
+    number!(scene, parameter, Scene::building_mut, as_mut, mut)
 }

@@ -3,7 +3,8 @@
 use super::slot::Slot;
 use super::table::{Row, SharedRule, Table, Type, Variability};
 use super::unit::Unit;
-use crate::engine::{ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, Side, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, FoundationOutput, LinkOutput, Output, YieldingOf};
+use crate::scene::Building;
 use crate::scene::rule::Rule;
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
@@ -41,18 +42,18 @@ pub(super) struct RowGroup<'t> {
 
 impl Table {
     /// Rows of a building.
-    pub(super) fn of_building(&mut self, side: Side) -> RowGroup<'_> {
-        RowGroup { table: self, thing: side.name().to_owned(), number: None, about: String::new() }
+    pub(super) fn of_building(&mut self, building: &Building) -> RowGroup<'_> {
+        RowGroup { table: self, thing: building.name.clone(), number: None, about: String::new() }
     }
 
     /// Rows of a floor, a storey or a mode, counted from 0.
-    pub(super) fn of_floor(&mut self, side: Side, floor: usize) -> RowGroup<'_> {
-        RowGroup { number: Some(floor + 1), ..self.of_building(side) }
+    pub(super) fn of_floor(&mut self, building: &Building, floor: usize) -> RowGroup<'_> {
+        RowGroup { number: Some(floor + 1), ..self.of_building(building) }
     }
 
     /// Rows of a foundation.
-    pub(super) fn of_foundation(&mut self, side: Side) -> RowGroup<'_> {
-        RowGroup { thing: format!("{side}.foundation"), ..self.of_building(side) }
+    pub(super) fn of_foundation(&mut self, building: &Building) -> RowGroup<'_> {
+        RowGroup { thing: format!("{}.foundation", building.name), ..self.of_building(building) }
     }
 
     /// Rows of a contact or a link, counted from 0, with what meets there.

@@ -9,7 +9,7 @@ use super::slot::{Calculated, Parameter};
 use super::table::{Row, SharedRule, Table, Type};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{BuildingId, ContactOutput, EnergyOutput, Input, Output, PeakOf, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
 use crate::scene::{Building, ContactPair, Damping, Place, Scaling, Scene, Stiffness, law_key, rule};
 
@@ -18,33 +18,32 @@ impl Table {
     pub fn new(scene: &Scene) -> Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
-        for side in Side::BOTH {
-            let building = scene.building(side);
+        for (id, building) in scene.ids().zip(&scene.buildings) {
             if building.is_absent() {
                 continue;
             }
             for floor in 0..building.mass.len() {
-                table.add_inputs(scene, side, floor);
-                table.add_floor(building, side, floor);
+                table.add_inputs(scene, id, floor);
+                table.add_floor(building, id, floor);
                 if scene.peaks {
-                    table.add_peaks(building, side, floor);
+                    table.add_peaks(building, id, floor);
                 }
             }
             for storey in 0..building.mass.len() {
-                if scene.contacts.iter().any(|pair| pair.columns() == Some((side, storey + 1))) {
-                    table.add_struck_storey(scene, side, storey);
+                if scene.contacts.iter().any(|pair| pair.columns() == Some((id, storey + 1))) {
+                    table.add_struck_storey(scene, id, storey);
                 }
             }
             for storey in 0..building.mass.len() {
-                table.add_yielding(scene, side, storey);
-                table.add_corrected(scene, side, storey);
-                table.add_lean(building, side, storey);
+                table.add_yielding(scene, id, storey);
+                table.add_corrected(scene, id, storey);
+                table.add_lean(building, id, storey);
             }
             if building.can_collapse() {
-                table.add_collapse(side);
+                table.add_collapse(building, id);
             }
-            table.add_building(scene, side);
-            table.add_foundation(scene, side);
+            table.add_building(scene, id);
+            table.add_foundation(scene, id);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
             table.add_contact(p, pair, &pair.meeting(scene));
@@ -54,7 +53,7 @@ impl Table {
             table.add_link(l, link, &link.meeting(scene));
             table.add_link_outputs(l, link, scene, &link.meeting(scene));
         }
-        let has_foundation = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
+        let has_foundation = scene.buildings.iter().any(|building| building.foundation.is_some());
         if has_foundation || !scene.links.is_empty() {
             table.add_system(scene);
         }
@@ -92,17 +91,17 @@ impl Table {
     }
 
     /// What a master pushes with.
-    fn add_inputs(&mut self, scene: &Scene, side: Side, floor: usize) {
-        let building = scene.building(side);
-        let mut rows = self.of_floor(side, floor);
+    fn add_inputs(&mut self, scene: &Scene, id: BuildingId, floor: usize) {
+        let building = scene.building(id);
+        let mut rows = self.of_floor(building, floor);
         if scene.floor_forces {
             let mass = building.mass[floor];
             let (about, most) = ("external force on floor #, positive to the right", mass * rule::MOST_ACCELERATION);
-            let row = rows.add(Input::Force(side, floor), "force", (NEWTON, mass * ACCELERATION), about);
+            let row = rows.add(Input::Force(id, floor), "force", (NEWTON, mass * ACCELERATION), about);
             row.between(-most, most);
         }
         if scene.restoring_corrections {
-            let (weight, input) = (weight(building), Input::Correction(side, floor));
+            let (weight, input) = (weight(building), Input::Correction(id, floor));
             let (name, about) = match building.stiffness {
                 Stiffness::Shear(_) => {
                     ("storey_correction", "storey shear of storey # by its stiffness less that which it resists with")
@@ -116,88 +115,88 @@ impl Table {
         }
     }
 
-    fn add_floor(&mut self, building: &Building, side: Side, floor: usize) {
+    fn add_floor(&mut self, building: &Building, id: BuildingId, floor: usize) {
         let mass = building.mass[floor];
         let level = building.heights.as_ref().map(|heights| heights.level(floor + 1));
         let level = level.map_or(String::new(), |level| format!(", level {} m", six_decimals(level)));
-        let mut rows = self.of_floor(side, floor);
+        let mut rows = self.of_floor(building, floor);
         for (output, quantity, frame, scale) in [
-            (Output::Displacement(side, floor), "displacement", "relative to the ground", MOVED),
-            (Output::Velocity(side, floor), "velocity", "relative to the ground", MOVING),
-            (Output::Acceleration(side, floor), "acceleration", "absolute", ACCELERATED),
+            (Output::Displacement(id, floor), "displacement", "relative to the ground", MOVED),
+            (Output::Velocity(id, floor), "velocity", "relative to the ground", MOVING),
+            (Output::Acceleration(id, floor), "acceleration", "absolute", ACCELERATED),
         ] {
             rows.add(output, quantity, scale, &format!("{quantity} of floor #{level}, {frame}"));
         }
         let scale = (Type::Real(Unit::Kilogram), mass);
-        rows.add(Parameter::Mass(side, floor), "mass", scale, "mass of floor #").under(rule::MASS);
+        rows.add(Parameter::Mass(id, floor), "mass", scale, "mass of floor #").under(rule::MASS);
         if let Stiffness::Shear(storeys) = &building.stiffness {
             let scale = (Type::Real(Unit::NewtonPerMetre), storeys[floor]);
-            let row = rows.add(Parameter::Stiffness(side, floor), "stiffness", scale, "lateral stiffness of storey #");
+            let row = rows.add(Parameter::Stiffness(id, floor), "stiffness", scale, "lateral stiffness of storey #");
             row.under(rule::STOREY_STIFFNESS).sharing(SharedRule::Springs);
         }
     }
 
-    fn add_peaks(&mut self, building: &Building, side: Side, floor: usize) {
-        let mut rows = self.of_floor(side, floor);
+    fn add_peaks(&mut self, building: &Building, id: BuildingId, floor: usize) {
+        let mut rows = self.of_floor(building, floor);
         for (of, name, scale, about) in [
-            (PeakOf::Displacement(side, floor), "peak_displacement", MOVED, "displacement of floor"),
-            (PeakOf::Drift(side, floor), "peak_drift", MOVED, "drift of storey"),
-            (PeakOf::Acceleration(side, floor), "peak_acceleration", ACCELERATED, "absolute acceleration of floor"),
+            (PeakOf::Displacement(id, floor), "peak_displacement", MOVED, "displacement of floor"),
+            (PeakOf::Drift(id, floor), "peak_drift", MOVED, "drift of storey"),
+            (PeakOf::Acceleration(id, floor), "peak_acceleration", ACCELERATED, "absolute acceleration of floor"),
         ] {
             let about =
                 format!("largest {about} # so far, of either sign, between communication points and in impacts too");
             rows.add(Output::Peak(of), name, scale, &about);
         }
         let Some(height) = building.heights.as_ref().and_then(|heights| heights.storeys.get(floor)) else { return };
-        let output = Output::OfStorey(StoreyPeak::DriftRatio, side, floor);
+        let output = Output::OfStorey(StoreyPeak::DriftRatio, id, floor);
         let about = format!("largest drift of storey # so far over its height of {height:?} m");
         rows.add(output, "peak_drift_ratio", (ONE, DISPLACEMENT / height), &about);
     }
 
     /// What is checked where slabs hit columns.
-    fn add_struck_storey(&mut self, scene: &Scene, side: Side, storey: usize) {
-        let building = scene.building(side);
-        let (mut rows, force) = (self.of_floor(side, storey), (NEWTON, weight(building)));
-        let output = Output::OfStorey(StoreyPeak::ColumnForce, side, storey);
+    fn add_struck_storey(&mut self, scene: &Scene, id: BuildingId, storey: usize) {
+        let building = scene.building(id);
+        let (mut rows, force) = (self.of_floor(building, storey), (NEWTON, weight(building)));
+        let output = Output::OfStorey(StoreyPeak::ColumnForce, id, storey);
         let about = "largest force so far of one slab on the columns of storey #";
         rows.add(output, "peak_column_force", force, about);
         if scene.peaks && !scene.restoring_corrections && matches!(building.stiffness, Stiffness::Shear(_)) {
-            let output = Output::OfStorey(StoreyPeak::Shear, side, storey);
+            let output = Output::OfStorey(StoreyPeak::Shear, id, storey);
             let about = "largest storey shear of storey # so far, stiffness times drift, to compare with that force";
             rows.add(output, "peak_storey_shear", force, about);
         }
     }
 
-    fn add_building(&mut self, scene: &Scene, side: Side) {
-        let building = scene.building(side);
+    fn add_building(&mut self, scene: &Scene, id: BuildingId) {
+        let building = scene.building(id);
         let on_soil = building.foundation.is_some();
-        let (mut rows, force) = (self.of_building(side), (NEWTON, weight(building)));
+        let (mut rows, force) = (self.of_building(building), (NEWTON, weight(building)));
         let base = if on_soil { "its foundation" } else { "the ground" };
         let corrected = if scene.restoring_corrections { ", less its corrections" } else { "" };
         let about = format!("force of the building on {base}: sum of K u + C v over its floors{corrected}");
-        rows.add(Output::BaseShear(side), "base_shear", force, &about);
+        rows.add(Output::BaseShear(id), "base_shear", force, &about);
         if scene.peaks {
             let about = "largest base shear so far, of either sign, between communication points and in impacts too";
-            rows.add(Output::Peak(PeakOf::BaseShear(side)), "peak_base_shear", force, about);
+            rows.add(Output::Peak(PeakOf::BaseShear(id)), "peak_base_shear", force, about);
         }
         if let Damping::Ratio(ratio) = building.damping {
             let scale = (ONE, if ratio > 0.0 { ratio } else { DAMPING_RATIO });
             let about = "ratio of critical damping in every mode";
-            rows.add(Parameter::DampingRatio(side), "damping_ratio", scale, about).under(rule::DAMPING_RATIO);
+            rows.add(Parameter::DampingRatio(id), "damping_ratio", scale, about).under(rule::DAMPING_RATIO);
         }
         if let Damping::Dashpots(storeys) = &building.damping {
             for (storey, dashpot) in storeys.iter().enumerate() {
                 let scale = (Type::Real(Unit::NewtonSecondPerMetre), *dashpot);
                 let about = "dashpot between the floors of storey #";
-                let mut rows = self.of_floor(side, storey);
-                rows.add(Parameter::Dashpot(side, storey), "dashpot", scale, about).under(rule::DASHPOT);
+                let mut rows = self.of_floor(building, storey);
+                rows.add(Parameter::Dashpot(id, storey), "dashpot", scale, about).under(rule::DASHPOT);
             }
         }
         let base = if on_soil { ", on a fixed base" } else { "" };
-        let about = format!("natural frequency of mode # of the {side} building alone{base}");
+        let about = format!("natural frequency of mode # of the {} building alone{base}", building.name);
         let scale = (Type::Real(Unit::Hertz), typical_frequency(building));
         for mode in 0..building.mass.len() {
-            self.of_floor(side, mode).add(Calculated::Frequency(side, mode), "frequency", scale, &about);
+            self.of_floor(building, mode).add(Calculated::Frequency(id, mode), "frequency", scale, &about);
         }
     }
 
@@ -253,18 +252,17 @@ impl Table {
     }
 
     /// What there is of a storey that can yield.
-    fn add_yielding(&mut self, scene: &Scene, side: Side, storey: usize) {
+    fn add_yielding(&mut self, scene: &Scene, id: BuildingId, storey: usize) {
         use YieldingOf as Y;
-        let building = scene.building(side);
+        let building = scene.building(id);
         let Some((force, ratio)) = building.yielding_storey(storey) else { return };
         let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
-        let mut rows = self.of_floor(side, storey);
+        let mut rows = self.of_floor(building, storey);
         let about = "storey shear at which storey # first yields";
-        rows.add(Parameter::YieldForce(side, storey), "yield_force", (NEWTON, force), about).under(rule::YIELD_FORCE);
+        rows.add(Parameter::YieldForce(id, storey), "yield_force", (NEWTON, force), about).under(rule::YIELD_FORCE);
         let scale = (ONE, if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
         let about = "stiffness of storey # after yield over that before";
-        rows.add(Parameter::PostYieldRatio(side, storey), "post_yield_ratio", scale, about)
-            .under(rule::POST_YIELD_RATIO);
+        rows.add(Parameter::PostYieldRatio(id, storey), "post_yield_ratio", scale, about).under(rule::POST_YIELD_RATIO);
         let drift = (METRE, force / stiffness);
         let shear = storey_shear(scene);
         for (of, name, scale, about) in [
@@ -280,64 +278,65 @@ impl Table {
             ),
             (Y::CumulativePlasticDrift, "cumulative_plastic_drift", drift, "sum so far of all plastic steps"),
         ] {
-            rows.add(Output::OfYielding(of, side, storey), name, scale, &format!("{about} of storey #"));
+            rows.add(Output::OfYielding(of, id, storey), name, scale, &format!("{about} of storey #"));
         }
         let about = "1 or -1 while storey # yields to the right or to the left, 0 while it is elastic";
-        rows.add(Output::Yielding(side, storey), "yielding", COUNT, about).between(-1.0, 1.0);
+        rows.add(Output::Yielding(id, storey), "yielding", COUNT, about).between(-1.0, 1.0);
     }
 
     /// The shear of a storey that can be corrected, beside what there is of one that can yield.
-    fn add_corrected(&mut self, scene: &Scene, side: Side, storey: usize) {
-        let building = scene.building(side);
+    fn add_corrected(&mut self, scene: &Scene, id: BuildingId, storey: usize) {
+        let building = scene.building(id);
         if !scene.restoring_corrections || matches!(building.stiffness, Stiffness::Matrix(_)) {
             return;
         }
-        let (mut rows, force) = (self.of_floor(side, storey), (NEWTON, weight(building)));
+        let (mut rows, force) = (self.of_floor(building, storey), (NEWTON, weight(building)));
         if building.yielding_storey(storey).is_none() {
-            let output = Output::OfYielding(YieldingOf::Shear, side, storey);
+            let output = Output::OfYielding(YieldingOf::Shear, id, storey);
             rows.add(output, "storey_shear", force, &format!("{} of storey #", storey_shear(scene)));
         }
         if scene.peaks {
-            let output = Output::OfStorey(StoreyPeak::Shear, side, storey);
+            let output = Output::OfStorey(StoreyPeak::Shear, id, storey);
             let about = "largest storey shear of storey # so far, of either sign, without damping, less its correction";
             rows.add(output, "peak_storey_shear", force, about);
         }
     }
 
     /// What gravity does to a storey that leans.
-    fn add_lean(&mut self, building: &Building, side: Side, storey: usize) {
+    fn add_lean(&mut self, building: &Building, id: BuildingId, storey: usize) {
         if !building.leans(storey) {
             return;
         }
-        let mut rows = self.of_floor(side, storey);
+        let mut rows = self.of_floor(building, storey);
         if matches!(building.stiffness, Stiffness::Shear(_)) {
             let about = "share of the stiffness of storey # that gravity takes";
-            rows.add(Calculated::StabilityCoefficient(side, storey), "stability_coefficient", RATIO, about);
+            rows.add(Calculated::StabilityCoefficient(id, storey), "stability_coefficient", RATIO, about);
         }
         let Some(critical) = building.net_storey(storey).and_then(|net| net.critical_drift()) else { return };
         let about = "drift of storey # at which it resists no push any more";
-        rows.add(Calculated::CriticalDrift(side, storey), "critical_drift", (METRE, critical), about);
-        let output = Output::OfYielding(YieldingOf::PeakStabilityIndex, side, storey);
+        rows.add(Calculated::CriticalDrift(id, storey), "critical_drift", (METRE, critical), about);
+        let output = Output::OfYielding(YieldingOf::PeakStabilityIndex, id, storey);
         let about = "largest drift so far over the critical drift of storey #";
         rows.add(output, "peak_stability_index", RATIO, about);
     }
 
-    fn add_collapse(&mut self, side: Side) {
-        let mut rows = self.of_building(side);
-        let about = format!("whether a storey of the {side} building has collapsed, which ends the run");
-        rows.add(Output::Collapsed(side), "collapsed", FLAG, &about);
-        let about = format!("time at which a storey of the {side} building has collapsed; -1 until then");
-        rows.add(Output::CollapseTime(side), "collapse_time", (Type::Real(Unit::Second), 0.0), &about);
+    fn add_collapse(&mut self, building: &Building, id: BuildingId) {
+        let name = &building.name;
+        let mut rows = self.of_building(building);
+        let about = format!("whether a storey of the {name} building has collapsed, which ends the run");
+        rows.add(Output::Collapsed(id), "collapsed", FLAG, &about);
+        let about = format!("time at which a storey of the {name} building has collapsed; -1 until then");
+        rows.add(Output::CollapseTime(id), "collapse_time", (Type::Real(Unit::Second), 0.0), &about);
     }
 
     fn add_energy(&mut self, scene: &Scene) {
         use EnergyOutput as E;
-        let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
+        let mass: f64 = scene.buildings.iter().flat_map(|building| &building.mass).sum();
         let yields = |building: &Building| (0..building.mass.len()).any(|i| building.yielding_storey(i).is_some());
         let slips = scene.links.iter().any(|link| link.slip.is_some());
-        let hysteretic = slips || [&scene.left, &scene.right].into_iter().any(yields);
-        let gravity = [&scene.left, &scene.right].into_iter().any(Building::has_gravity);
-        let soil = [&scene.left, &scene.right].into_iter().any(|building| building.foundation.is_some());
+        let hysteretic = slips || scene.buildings.iter().any(yields);
+        let gravity = scene.buildings.iter().any(Building::has_gravity);
+        let soil = scene.buildings.iter().any(|building| building.foundation.is_some());
         for (term, about) in [
             (E::Input, "work of the inertia forces of the ground motion so far"),
             (E::Kinetic, "kinetic energy of the motion relative to the ground"),
@@ -401,7 +400,7 @@ fn storey_shear(scene: &Scene) -> &'static str {
 /// kg, of all floors that take part in a contact.
 fn masses(pair: &ContactPair, scene: &Scene) -> f64 {
     let floors = pair.row(scene).filter(|share| share.place != Place::Rotation);
-    floors.map(|share| scene.building(share.side).inertia(share.place)).sum()
+    floors.map(|share| scene.building(share.building).inertia(share.place)).sum()
 }
 
 /// Hz: that of a floor on its storeys, whatever the others do.

@@ -63,15 +63,15 @@ impl Settings {
     pub fn calculate(&self, calculated: Calculated) -> f64 {
         match calculated {
             Calculated::Frequency(..) | Calculated::SystemFrequency(_) => 0.0,
-            Calculated::PeriodRatio(side) => period_ratio(self.scene.building(side)),
-            Calculated::StabilityCoefficient(side, storey) => {
-                let building = self.scene.building(side);
+            Calculated::PeriodRatio(id) => period_ratio(self.scene.building(id)),
+            Calculated::StabilityCoefficient(id, storey) => {
+                let building = self.scene.building(id);
                 let gravity = building.gravity_stiffness();
                 let of = |stiffness: f64| gravity.get(storey).map_or(0.0, |g| g / stiffness);
                 building.stiffness.of_storey(storey).map_or(0.0, of)
             }
-            Calculated::CriticalDrift(side, storey) => {
-                let net = self.scene.building(side).net_storey(storey);
+            Calculated::CriticalDrift(id, storey) => {
+                let net = self.scene.building(id).net_storey(storey);
                 net.and_then(|net| net.critical_drift()).unwrap_or(f64::INFINITY)
             }
         }

@@ -1,6 +1,6 @@
 //! What the variables stand for.
 
-use crate::engine::{Input, Output, Side};
+use crate::engine::{BuildingId, Input, Output};
 use crate::scene::FoundationKey;
 
 /// What a variable stands for. Floors, storeys, contacts and links are counted from 0.
@@ -21,15 +21,15 @@ pub enum Slot {
 #[non_exhaustive]
 pub enum Calculated {
     /// Hz: natural frequency of a building alone.
-    Frequency(Side, usize),
+    Frequency(BuildingId, usize),
     /// Share of a storey's stiffness that gravity takes.
-    StabilityCoefficient(Side, usize),
+    StabilityCoefficient(BuildingId, usize),
     /// m: drift at which a storey that yields resists no push any more.
-    CriticalDrift(Side, usize),
+    CriticalDrift(BuildingId, usize),
     /// Hz: natural frequency of the buildings with their links and on their soil.
     SystemFrequency(usize),
     /// First period of a building on its soil over that on a fixed base.
-    PeriodRatio(Side),
+    PeriodRatio(BuildingId),
 }
 
 /// A parameter: the master sets it before the end of initialisation.
@@ -41,17 +41,17 @@ pub enum Parameter {
     /// Path of another record.
     GroundRecord,
     /// kg
-    Mass(Side, usize),
+    Mass(BuildingId, usize),
     /// N/m, of a storey
-    Stiffness(Side, usize),
+    Stiffness(BuildingId, usize),
     /// Of every mode of a building
-    DampingRatio(Side),
+    DampingRatio(BuildingId),
     /// N s/m, of a storey
-    Dashpot(Side, usize),
+    Dashpot(BuildingId, usize),
     /// N, of a storey
-    YieldForce(Side, usize),
+    YieldForce(BuildingId, usize),
     /// Of a storey
-    PostYieldRatio(Side, usize),
+    PostYieldRatio(BuildingId, usize),
     /// m
     Gap(usize),
     /// Where columns are hit, as a share of their storey's height
@@ -67,7 +67,7 @@ pub enum Parameter {
     /// N s/m, of a link
     LinkDashpot(usize),
     /// Of the foundation of a building
-    Foundation(Side, FoundationKey),
+    Foundation(BuildingId, FoundationKey),
     /// N, of a link
     SlipForce(usize),
     /// Of a link

@@ -6,7 +6,7 @@ use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, Damping, Stiffness, Units, number};
-use crate::structure::{FirstMode, Side};
+use crate::structure::{BuildingId, FirstMode};
 use std::f64::consts::PI;
 
 /// Largest damping ratio without a warning: isolators and dampers of buildings stay below.
@@ -15,23 +15,22 @@ const MOST_DAMPING: f64 = 0.3;
 const LEAST_DAMPING: f64 = 2e-4;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in Side::BOTH {
-        let building = facts.building(side);
-        let path = side;
-        look_at_entries(facts, side, found);
-        if !found.has(&format!("{path}.mass")) && !found.has(&format!("{path}.stiffness")) {
-            look_at_period(facts, side, found);
-            look_at_storey_masses(facts, side, found);
+    for id in facts.scene.ids() {
+        let building = facts.building(id);
+        look_at_entries(facts, id, found);
+        if ["mass", "stiffness"].iter().all(|key| !found.has(&format!("{}.{key}", building.name))) {
+            look_at_period(facts, id, found);
+            facts.neighbours(id).for_each(|other| look_at_storey_masses(facts, (id, other), found));
         }
-        look_at_damping(facts, side, building, found);
-        look_at_start(facts, side, building, found);
+        look_at_damping(facts, id, building, found);
+        look_at_start(facts, id, building, found);
     }
 }
 
 /// Entries of a list that the others speak against.
-fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(side.opposite()));
-    let units = facts.scene.units;
+fn look_at_entries<'a>(facts: &Facts<'a>, id: BuildingId, found: &mut Found) {
+    let (building, units) = (facts.building(id), facts.scene.units);
+    let name = &building.name;
     let mut tell = |(key, unit): (&str, &str), values: &[f64], odd: Vec<OddEntry>, beside: &str| {
         for OddEntry { index, factor } in odd {
             let times = how_many_times(factor);
@@ -40,19 +39,22 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
                 units.unit(unit),
                 other_unit(factor, units, unit)
             );
-            found.quantity(format!("{side}.{key}[{}]", index + 1), values[index], text);
+            found.quantity(format!("{name}.{key}[{}]", index + 1), values[index], text);
         }
     };
-    let odd = odd_entries(&building.mass, &other.mass, |_| false);
+    let others = || facts.neighbours(id).map(|other| facts.building(other));
+    let masses: Vec<f64> = others().flat_map(|other| &other.mass).copied().collect();
+    let odd = odd_entries(&building.mass, &masses, |_| false);
     tell(("mass", "kg"), &building.mass, odd, "masses of the floors");
     let Stiffness::Shear(storeys) = &building.stiffness else { return };
-    let others = match &other.stiffness {
+    let of_shear = |other: &'a Building| match &other.stiffness {
         Stiffness::Shear(others) => others.as_slice(),
         Stiffness::Matrix(_) => &[],
     };
+    let others: Vec<f64> = others().flat_map(of_shear).copied().collect();
     // A soft first storey is an isolated building, unless that makes it slower than any.
-    let is_isolated = |odd: &OddEntry| odd.index == 0 && odd.factor < 1.0 && facts.pace(side) == Pace::Usual;
-    tell(("stiffness", "N/m"), storeys, odd_entries(storeys, others, is_isolated), "stiffness of the storeys");
+    let is_isolated = |odd: &OddEntry| odd.index == 0 && odd.factor < 1.0 && facts.pace(id) == Pace::Usual;
+    tell(("stiffness", "N/m"), storeys, odd_entries(storeys, &others, is_isolated), "stiffness of the storeys");
 }
 
 /// An entry of a list that the others speak against.
@@ -108,23 +110,23 @@ fn other_unit(factor: f64, units: Units, unit: &str) -> String {
     }
 }
 
-fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(side.opposite()));
-    let Some(period) = facts.period(side) else { return };
+fn look_at_period(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
+    let building = facts.building(id);
+    let Some(period) = facts.period(id) else { return };
     let count = building.mass.len();
     let usual = format!("{} with some {} s", storeys(count), short(0.1 * count as f64));
     let found_here = format!("the first natural frequency is {} Hz, period {} s", short(1.0 / period), short(period));
-    let neighbour_is_usual = facts.pace(side.opposite()) == Pace::Usual;
-    // The neighbour, where it is sound, tells whether it is the masses.
-    let lighter = neighbour_is_usual.then(|| mean_mass(other) / mean_mass(building));
+    // A neighbour, where it is sound, tells whether it is the masses.
+    let sound = facts.neighbours(id).find(|other| facts.pace(*other) == Pace::Usual);
+    let lighter = sound.map(|other| mean_mass(facts.building(other)) / mean_mass(building));
     let units = facts.scene.units;
-    let (far_too, (is_mass, meant)) = match facts.pace(side) {
+    let (far_too, (is_mass, meant)) = match facts.pace(id) {
         Pace::Fast => ("fast", meant_by_fast(units, lighter)),
         Pace::Slow => ("slow", meant_by_slow(units, lighter, mean_mass(building), period)),
         Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => return,
     };
     let text = format!("{found_here}, far too {far_too} for {usual}; {meant}");
-    let path = |key: &str| format!("{}.{key}", side);
+    let path = |key: &str| format!("{}.{key}", building.name);
     match &building.stiffness {
         _ if is_mass => found.quantities(path("mass"), &building.mass, text),
         Stiffness::Shear(storeys) => found.quantities(path(stiffness_key(building)), storeys, text),
@@ -163,38 +165,39 @@ fn meant_by_slow(units: Units, lighter: Option<f64>, mass: f64, period: f64) -> 
 }
 
 /// Two buildings of usual periods, one of them in other units throughout.
-fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(side.opposite()));
-    let both_usual = facts.pace == [Pace::Usual; 2] && other.mass.len() > 1;
-    let heavier = mean_mass(other) / mean_mass(building);
+fn look_at_storey_masses(facts: &Facts<'_>, (id, other): (BuildingId, BuildingId), found: &mut Found) {
+    let mean = |id| mean_mass(facts.building(id));
+    let both_usual =
+        [id, other].iter().all(|id| facts.pace(*id) == Pace::Usual) && facts.building(other).mass.len() > 1;
+    let heavier = mean(other) / mean(id);
     if !both_usual || heavier < 200.0 {
         return;
     }
     // In kg and N the lighter building has been given in t and kN, in t and kN the heavier one in kg and N.
     let units = facts.scene.units;
     let (odd, beside, factor, meant) = match units {
-        Units::Si => (side, side.opposite(), 1.0 / heavier, Units::KilonewtonTonne),
-        Units::KilonewtonTonne => (side.opposite(), side, heavier, Units::Si),
+        Units::Si => (id, other, 1.0 / heavier, Units::KilonewtonTonne),
+        Units::KilonewtonTonne => (other, id, heavier, Units::Si),
     };
     let text = format!(
         "a floor has {} the mass of one of the {} building, at usual periods of both; masses are in {} and stiffnesses in \
          {}, were those of this building given in {} and {}?",
         how_many_times(factor),
-        beside,
+        facts.building(beside).name,
         units.unit("kg"),
         units.unit("N/m"),
         meant.unit("kg"),
         meant.unit("N/m")
     );
-    found.quantities(format!("{}.mass", odd), &facts.building(odd).mass, text);
+    found.quantities(format!("{}.mass", facts.building(odd).name), &facts.building(odd).mass, text);
 }
 
 fn storeys(count: usize) -> String {
     format!("{count} {}", if count == 1 { "storey" } else { "storeys" })
 }
 
-fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &mut Found) {
-    let path = format!("{}.damping", side);
+fn look_at_damping(facts: &Facts<'_>, id: BuildingId, building: &Building, found: &mut Found) {
+    let path = format!("{}.damping", building.name);
     let (path, ratio) = match &building.damping {
         Damping::Ratio(ratio) => (format!("{path}.ratio"), *ratio),
         Damping::Rayleigh { ratio, .. } => (format!("{path}.rayleigh.ratio"), *ratio),
@@ -202,7 +205,7 @@ fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &m
             let Some(index) = ratios.iter().position(|&ratio| odd_damping(ratio).is_some()) else { return };
             (format!("{path}.ratios[{}]", index + 1), ratios[index])
         }
-        Damping::Dashpots(_) | Damping::Matrix(_) => return look_at_first_mode(facts, side, found),
+        Damping::Dashpots(_) | Damping::Matrix(_) => return look_at_first_mode(facts, id, found),
     };
     if let Some(text) = odd_damping(ratio) {
         let meant = if ratio > MOST_DAMPING { percent(ratio) } else { String::new() };
@@ -227,9 +230,9 @@ fn odd_damping(ratio: f64) -> Option<String> {
 
 /// Dashpots and matrices, by the damping that they give to the first mode. Dashpots may be those of isolators, which have three
 /// tenths of critical damping and more.
-fn look_at_first_mode(facts: &Facts<'_>, side: Side, found: &mut Found) {
+fn look_at_first_mode(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
     const MOST_OF_ISOLATORS: f64 = 1.0;
-    let (Some(first), building) = (facts.swinging(side), facts.building(side)) else { return };
+    let (Some(first), building) = (facts.swinging(id), facts.building(id)) else { return };
     let (damped, most): (f64, f64) = match &building.damping {
         Damping::Dashpots(storeys) => {
             let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
@@ -251,9 +254,10 @@ fn look_at_first_mode(facts: &Facts<'_>, side: Side, found: &mut Found) {
         short(ratio),
         facts.scene.units.unit("N s/m")
     );
+    let name = &building.name;
     match &building.damping {
-        Damping::Dashpots(storeys) => found.quantities(format!("{side}.damping.dashpots"), storeys, text),
-        Damping::Matrix(rows) => found.matrix(format!("{side}.damping.matrix"), rows, text),
+        Damping::Dashpots(storeys) => found.quantities(format!("{name}.damping.dashpots"), storeys, text),
+        Damping::Matrix(rows) => found.matrix(format!("{name}.damping.matrix"), rows, text),
         Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => {}
     }
 }
@@ -264,11 +268,11 @@ fn ratio_of(first: &FirstMode, damped: f64, building: &Building) -> f64 {
 }
 
 /// Initial motion beyond what a building stands.
-fn look_at_start(facts: &Facts<'_>, side: Side, building: &Building, found: &mut Found) {
+fn look_at_start(facts: &Facts<'_>, id: BuildingId, building: &Building, found: &mut Found) {
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let omega = match facts.pace(side) {
-        Pace::Usual => facts.period(side).map_or(0.0, |period| 2.0 * PI / period),
-        Pace::Free => return look_at_speed(side, building, 0.0, largest(&building.initial_velocity), found),
+    let omega = match facts.pace(id) {
+        Pace::Usual => facts.period(id).map_or(0.0, |period| 2.0 * PI / period),
+        Pace::Free => return look_at_speed(building, 0.0, largest(&building.initial_velocity), found),
         Pace::Fast | Pace::Slow | Pace::Wall | Pace::Unknown => 0.0,
     };
     let displacement = largest(&building.initial_displacement);
@@ -280,18 +284,18 @@ fn look_at_start(facts: &Facts<'_>, side: Side, building: &Building, found: &mut
         let aside = short(displacement);
         let text =
             format!("the building starts up to {aside} m aside{held}; displacements are in m, were they given in mm?");
-        found.numbers(format!("{}.initial_displacement", side), &building.initial_displacement, text);
+        found.numbers(format!("{}.initial_displacement", building.name), &building.initial_displacement, text);
     }
-    look_at_speed(side, building, omega, largest(&building.initial_velocity), found);
+    look_at_speed(building, omega, largest(&building.initial_velocity), found);
 }
 
-fn look_at_speed(side: Side, building: &Building, omega: f64, speed: f64, found: &mut Found) {
+fn look_at_speed(building: &Building, omega: f64, speed: f64, found: &mut Found) {
     if speed > 10.0 || omega * speed > 8.0 * STANDARD_GRAVITY {
         let text = format!(
             "a floor starts at {} km/h, where the strongest earthquakes move the ground at 1 or 2 m/s; velocities are in \
              m/s, were they given in mm/s or cm/s?",
             short(3.6 * speed)
         );
-        found.numbers(format!("{}.initial_velocity", side), &building.initial_velocity, text);
+        found.numbers(format!("{}.initial_velocity", building.name), &building.initial_velocity, text);
     }
 }

@@ -7,7 +7,7 @@ use super::whole::IN_KN_T;
 use crate::contact::LawKey;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{ContactPair, Scene, Side, Units, law_key};
+use crate::scene::{Building, ContactPair, Scene, Units, law_key};
 use std::cmp::Ordering;
 
 /// Widest gap of neighbouring buildings, m; from [`FAR_AWAY`] on a gap is meant to be out of reach.
@@ -31,7 +31,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         found.group(contacts, "gap", |pair| lost_gap(facts, pair));
     }
     found.group(contacts, "exponent", |pair| high_exponent(pair, scene.units));
-    if !has_odd_building(found) {
+    if !has_odd_building(scene, found) {
         // Another exponent gives the stiffness another meaning.
         found.group(contacts, "stiffness", |pair| {
             high_exponent(pair, scene.units).is_none().then(|| duration(facts, pair)).flatten()
@@ -54,7 +54,8 @@ fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     // Levels tell why `[facing]` has found none.
     let is_by_levels = scene.facing.is_some();
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
-    let is_linked = scene.links.iter().any(|link| link.joins_buildings() || scene.right.is_absent());
+    let is_linked =
+        scene.links.iter().any(|link| link.joins_buildings() || scene.buildings.iter().any(Building::is_absent));
     let is_pushed = scene.floor_forces || scene.restoring_corrections;
     if scene.contacts.is_empty() && !is_pushed && !swings_freely && !is_by_levels && !is_linked {
         let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
@@ -88,7 +89,7 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
     let others = pairs.iter().enumerate().filter(|(_, other)| is_crossed(&pairs[index], other));
     let others: Vec<String> = others.take(3).map(|(other, _)| format!("contact[{}]", other + 1)).collect();
     let text = format!(
-        "above the floors of {} on one side and below them on the other, where floors cannot be; are left_floor and \
+        "above the floors of {} on one id and below them on the other, where floors cannot be; are left_floor and \
          right_floor right?",
         others.join(", ")
     );
@@ -96,10 +97,10 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
 }
 
 /// A building with other units makes its contacts look odd.
-fn has_odd_building(found: &Found) -> bool {
-    ["left.mass", "left.stiffness", "left.stiffness_matrix", "right.mass", "right.stiffness", "right.stiffness_matrix"]
-        .into_iter()
-        .any(|path| found.has(path))
+fn has_odd_building(scene: &Scene, found: &Found) -> bool {
+    let is_odd =
+        |name: &str| ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{name}.{key}")));
+    scene.buildings.iter().any(|building| is_odd(&building.name))
 }
 
 /// Floors that are deep in each other at the start.
@@ -143,7 +144,9 @@ fn wide_gap(facts: &Facts<'_>, pair: &ContactPair, ground_is_odd: bool) -> Odd {
         return Some((gap, text));
     }
     facts.peak.filter(|_| !ground_is_odd)?;
-    let reach: f64 = Side::BOTH.into_iter().filter_map(|side| facts.sway(side)).sum();
+    let is_between = pair.left.building().is_some() && pair.right.building().is_some();
+    let swaying = facts.scene.ids().filter(|id| !is_between || pair.is_with(*id));
+    let reach: f64 = swaying.filter_map(|id| facts.sway(id)).sum();
     let is_known = !facts.pace.iter().any(|pace| !matches!(pace, Pace::Usual | Pace::Wall));
     let is_wide = is_known && gap > 5.0 * reach && gap > 0.02 && gap < FAR_AWAY;
     is_wide.then(|| {

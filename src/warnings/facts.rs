@@ -3,7 +3,7 @@
 use crate::figures::short;
 use crate::record::{Record, STANDARD_GRAVITY};
 use crate::scene::{Building, Scene, Stiffness, Units};
-use crate::structure::{FirstMode, Side};
+use crate::structure::{BuildingId, FirstMode};
 use std::f64::consts::PI;
 
 /// A scene with what follows from it.
@@ -12,9 +12,9 @@ pub(super) struct Facts<'a> {
     pub record: Option<&'a Record>,
     /// m/s2, of the scaled record; absent where the ground is an input.
     pub peak: Option<f64>,
-    /// Left and right; absent where a building has none in double precision.
-    pub first: [Option<FirstMode>; 2],
-    pub pace: [Pace; 2],
+    /// Of each building; absent where it has none in double precision.
+    pub first: Vec<Option<FirstMode>>,
+    pub pace: Vec<Pace>,
 }
 
 /// How the first period of a building compares with its number of storeys.
@@ -38,59 +38,64 @@ impl<'a> Facts<'a> {
     pub(super) fn of(scene: &'a Scene, record: Option<&'a Record>) -> Facts<'a> {
         let factor = record.and_then(|record| scene.ground.scaling.factor(record).ok());
         let peak = record.zip(factor).map(|(record, factor)| (factor * record.peak()).abs());
-        let first = [&scene.left, &scene.right].map(|building| FirstMode::of(building).ok());
-        let mut facts = Facts { scene, record, peak, first, pace: [Pace::Unknown; 2] };
-        facts.pace = Side::BOTH.map(|side| facts.find_pace(side));
+        let first = scene.buildings.iter().map(|building| FirstMode::of(building).ok()).collect();
+        let mut facts = Facts { scene, record, peak, first, pace: Vec::new() };
+        facts.pace = scene.ids().map(|id| facts.find_pace(id)).collect();
         facts
     }
 
-    pub(super) fn building(&self, side: Side) -> &'a Building {
-        self.scene.building(side)
+    pub(super) fn building(&self, id: BuildingId) -> &'a Building {
+        self.scene.building(id)
     }
 
-    pub(super) fn pace(&self, side: Side) -> Pace {
-        self.pace[side as usize]
+    /// Those beside a building.
+    pub(super) fn neighbours(&self, id: BuildingId) -> impl Iterator<Item = BuildingId> + use<> {
+        self.scene.neighbours().filter(move |pair| pair.contains(&id)).flatten().filter(move |other| *other != id)
+    }
+
+    pub(super) fn pace(&self, id: BuildingId) -> Pace {
+        self.pace[id.index()]
     }
 
     /// s.
-    pub(super) fn period(&self, side: Side) -> Option<f64> {
-        self.first[side as usize].as_ref().map(|first| 2.0 * PI / first.omega)
+    pub(super) fn period(&self, id: BuildingId) -> Option<f64> {
+        self.first[id.index()].as_ref().map(|first| 2.0 * PI / first.omega)
     }
 
     /// The first mode of a building that swings as buildings do.
-    pub(super) fn swinging(&self, side: Side) -> Option<&FirstMode> {
-        self.first[side as usize].as_ref().filter(|_| self.pace(side) == Pace::Usual)
+    pub(super) fn swinging(&self, id: BuildingId) -> Option<&FirstMode> {
+        self.first[id.index()].as_ref().filter(|_| self.pace(id) == Pace::Usual)
     }
 
     /// How far a building that swings as buildings do sways under the ground motion, m, if not by more than usual.
-    pub(super) fn sway(&self, side: Side) -> Option<f64> {
-        let (_, period) = self.usual_periods().find(|(usual, _)| *usual == side)?;
+    pub(super) fn sway(&self, id: BuildingId) -> Option<f64> {
+        let (_, period) = self.usual_periods().find(|(usual, _)| *usual == id)?;
         Some(3.0 * self.peak? * (period / (2.0 * PI)).powi(2))
     }
 
     /// Whether any floor is displaced or moves at the start.
     pub(super) fn starts_moving(&self) -> bool {
-        let buildings = [&self.scene.left, &self.scene.right];
-        let motions = buildings.into_iter().flat_map(|b| b.initial_displacement.iter().chain(&b.initial_velocity));
+        let motions =
+            self.scene.buildings.iter().flat_map(|b| b.initial_displacement.iter().chain(&b.initial_velocity));
         motions.into_iter().any(|number| *number != 0.0)
     }
 
     /// s of the buildings that swing as buildings do.
-    pub(super) fn usual_periods(&self) -> impl Iterator<Item = (Side, f64)> + '_ {
-        let usual = |side| (self.pace(side) == Pace::Usual).then(|| self.period(side)).flatten();
-        Side::BOTH.into_iter().filter_map(move |side| Some((side, usual(side)?)))
+    pub(super) fn usual_periods(&self) -> impl Iterator<Item = (BuildingId, f64)> + '_ {
+        let usual = |id| (self.pace(id) == Pace::Usual).then(|| self.period(id)).flatten();
+        self.scene.ids().filter_map(move |id| Some((id, usual(id)?)))
     }
 
-    fn find_pace(&self, side: Side) -> Pace {
-        let Some(period) = self.period(side) else { return Pace::Unknown };
-        let floors = self.building(side).mass.len();
+    fn find_pace(&self, id: BuildingId) -> Pace {
+        let Some(period) = self.period(id) else { return Pace::Unknown };
+        let floors = self.building(id).mass.len();
         if period > slowest(floors) {
             let shaken = self.peak.is_some_and(|peak| peak > 0.0);
             let free = period > 1e5 || (period > 100.0 && !shaken && self.starts_moving());
             return if free { Pace::Free } else { Pace::Slow };
         }
         match period < fastest(floors) {
-            true if self.is_wall(side, period) => Pace::Wall,
+            true if self.neighbours(id).any(|other| self.is_wall(id, other, period)) => Pace::Wall,
             true => Pace::Fast,
             false => Pace::Usual,
         }
@@ -98,16 +103,15 @@ impl<'a> Facts<'a> {
 
     /// Whether a structure that is too fast for a building is meant as a wall: heavy, or one floor that is not light,
     /// beside a building that is neither.
-    fn is_wall(&self, side: Side, period: f64) -> bool {
-        let other = side.opposite();
+    fn is_wall(&self, id: BuildingId, other: BuildingId, period: f64) -> bool {
         let Some(other_period) = self.period(other) else { return false };
         if other_period < fastest(self.building(other).mass.len()) {
             return false;
         }
-        let total = |side| self.building(side).mass.iter().sum::<f64>();
-        let heavier = total(side) / total(other);
+        let total = |id| self.building(id).mass.iter().sum::<f64>();
+        let heavier = total(id) / total(other);
         let stiffer = heavier * (other_period / period) * (other_period / period);
-        let single = self.building(side).mass.len() == 1;
+        let single = self.building(id).mass.len() == 1;
         (single && heavier >= 0.1) || (heavier >= 20.0 && stiffer >= 1e3)
     }
 }

@@ -5,7 +5,7 @@ use super::found::{Found, LIKEWISE};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, NetStorey, PDelta, Stiffness, Units};
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// Stability coefficient up to which codes let gravity on leaning storeys be left out, and beyond which none allows a design.
 const NEGLIGIBLE: f64 = 0.1;
@@ -19,17 +19,18 @@ const ISOLATION_HEIGHT: f64 = 0.5;
 const ISOLATION_STIFFNESS: f64 = 0.125;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in Side::BOTH {
-        let building = facts.building(side);
-        let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{side}.{key}")));
+    for id in facts.scene.ids() {
+        let building = facts.building(id);
+        let name = &building.name;
+        let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{name}.{key}")));
         match &building.p_delta {
             Some(p_delta) => {
-                look_at_loads(facts, side, p_delta, found);
-                look_at_coefficients(facts, side, p_delta, found);
-                look_at_falls(facts, side, p_delta, found);
+                look_at_loads(facts, id, p_delta, found);
+                look_at_coefficients(facts, id, p_delta, found);
+                look_at_falls(facts, id, p_delta, found);
             }
-            None if is_known || facts.pace(side) != Pace::Usual => {}
-            None => look_at_neglect(facts, side, found),
+            None if is_known || facts.pace(id) != Pace::Usual => {}
+            None => look_at_neglect(facts, id, found),
         }
     }
 }
@@ -49,8 +50,8 @@ fn likewise<T>(storeys: &[T]) -> String {
 }
 
 /// Heights are there, and with them the weights would be a good part of the stiffness.
-fn look_at_neglect(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let building = facts.building(side);
+fn look_at_neglect(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
+    let building = facts.building(id);
     let Some(heights) = &building.heights else { return };
     let mut leaning = building.clone();
     leaning.p_delta = Some(PDelta::new(vec![true; building.mass.len()]));
@@ -69,11 +70,12 @@ fn look_at_neglect(facts: &Facts<'_>, side: Side, found: &mut Found) {
         short(*theta),
         likewise(&storeys)
     );
-    found.add(format!("{side}.p_delta"), "false".to_owned(), text);
+    found.add(format!("{}.p_delta", building.name), "false".to_owned(), text);
 }
 
-fn look_at_coefficients(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
-    let mut storeys = coefficients(facts.building(side));
+fn look_at_coefficients(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mut Found) {
+    let building = facts.building(id);
+    let mut storeys = coefficients(building);
     storeys.retain(|(_, theta)| *theta > MOST_ALLOWED);
     let Some((storey, theta)) = storeys.first() else { return };
     let text = format!(
@@ -82,7 +84,7 @@ fn look_at_coefficients(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: 
         short(*theta),
         likewise(&storeys)
     );
-    found.add(format!("{side}.p_delta"), p_delta.written(), text);
+    found.add(format!("{}.p_delta", building.name), p_delta.written(), text);
 }
 
 /// A storey whose stiffness is negative once it yields.
@@ -95,15 +97,15 @@ struct Falling {
 }
 
 /// Storeys whose stiffness is negative once they yield, and those that start where they can only fall.
-fn look_at_falls(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
-    let building = facts.building(side);
+fn look_at_falls(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mut Found) {
+    let building = facts.building(id);
     let storeys = (0..building.mass.len()).filter_map(|storey| {
         let net = building.net_storey(storey)?;
         Some(Falling { storey, net, critical_drift: net.critical_drift()? })
     });
     let mut storeys: Vec<Falling> = storeys.collect();
     for falling in &storeys {
-        look_at_start(facts, side, falling, found);
+        look_at_start(facts, id, falling, found);
     }
     storeys.sort_by(|one, other| one.critical_drift.total_cmp(&other.critical_drift));
     let Some(Falling { storey, net, critical_drift }) = storeys.first() else { return };
@@ -121,13 +123,13 @@ fn look_at_falls(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Fo
         short(*critical_drift),
         likewise(&storeys)
     );
-    found.add(format!("{side}.p_delta"), p_delta.written(), text);
+    found.add(format!("{}.p_delta", building.name), p_delta.written(), text);
 }
 
-fn look_at_start(facts: &Facts<'_>, side: Side, falling: &Falling, found: &mut Found) {
-    let building = facts.building(side);
+fn look_at_start(facts: &Facts<'_>, id: BuildingId, falling: &Falling, found: &mut Found) {
+    let building = facts.building(id);
     let drift = building.initial_drift(falling.storey);
-    let path = format!("{side}.initial_displacement");
+    let path = format!("{}.initial_displacement", building.name);
     if drift.abs() > falling.critical_drift && !found.has(&path) {
         let text = format!(
             "storey {} starts at a drift of {} m, and beyond {} m it resists no push any more",
@@ -140,10 +142,10 @@ fn look_at_start(facts: &Facts<'_>, side: Side, falling: &Falling, found: &mut F
 }
 
 /// Loads far from the weights of the masses. A floor may have none.
-fn look_at_loads(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Found) {
-    let Some(loads) = &p_delta.load else { return };
+fn look_at_loads(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mut Found) {
+    let (Some(loads), building) = (&p_delta.load, facts.building(id)) else { return };
     let has_any = loads.iter().any(|load| *load > 0.0);
-    let share = |floor: usize| loads[floor] / (STANDARD_GRAVITY * facts.building(side).mass[floor]);
+    let share = |floor: usize| loads[floor] / (STANDARD_GRAVITY * building.mass[floor]);
     let is_odd = |floor: &usize| !USUAL_LOADS.contains(&share(*floor)) && (loads[*floor] > 0.0 || !has_any);
     let odd: Vec<usize> = (0..loads.len()).filter(is_odd).collect();
     let text = |floor: usize| {
@@ -154,7 +156,7 @@ fn look_at_loads(facts: &Facts<'_>, side: Side, p_delta: &PDelta, found: &mut Fo
             false => "no floor weighs anything, which p_delta = false would say as well".to_owned(),
         }
     };
-    found.entries(&format!("{side}.gravity_load"), loads, &odd, loads.len(), text);
+    found.entries(&format!("{}.gravity_load", building.name), loads, &odd, loads.len(), text);
 }
 
 /// What else than weights in the units of the scene may have been given.

@@ -4,8 +4,7 @@ use super::facts::{Facts, Pace};
 use super::found::Found;
 use crate::figures::short;
 use crate::record::{MEASURED, Record, STANDARD_GRAVITY};
-use crate::scene::{Scaling, quoted};
-use crate::structure::Side;
+use crate::scene::{Building, Scaling, quoted};
 
 /// In g: the smallest peak of a ground motion that harms buildings, and the largest that has been recorded.
 const LEAST_PEAK: f64 = 0.05;
@@ -243,8 +242,8 @@ fn look_at_stop_without_record(facts: &Facts<'_>, stop: f64, found: &mut Found) 
         return;
     }
     // A single impact needs no swing.
-    let moves = |side: Side| facts.building(side).initial_velocity.iter().any(|velocity| *velocity != 0.0);
-    let is_impact = moves(Side::Left) || moves(Side::Right) || facts.pace.contains(&Pace::Free);
+    let moves = |building: &Building| building.initial_velocity.iter().any(|velocity| *velocity != 0.0);
+    let is_impact = facts.scene.buildings.iter().any(moves) || facts.pace.contains(&Pace::Free);
     let shortest = facts.usual_periods().map(|(_, period)| period).reduce(f64::min);
     if let Some(period) = shortest.filter(|period| !is_impact && stop < 0.25 * period) {
         let text = format!("shorter than a swing of the buildings ({} s); stop_time is in s", short(period));

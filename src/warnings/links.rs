@@ -4,7 +4,7 @@ use super::facts::{Facts, NEVER_REACHED, inertia_of, shaken, was_given};
 use super::found::{Found, Odd};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Link, Place, Share, Side, Stiffness, Units};
+use crate::scene::{Building, BuildingId, Link, Place, Share, Stiffness, Units};
 
 /// Times the stiffest storey: from there on a spring is as good as rigid.
 const TIE: f64 = 10.0;
@@ -17,7 +17,7 @@ const ALWAYS_EXCEEDED: f64 = 1e-3;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     // A building with other units makes its links look odd.
-    if ["left", "right"].into_iter().any(|side| found.has(side)) {
+    if facts.scene.buildings.iter().any(|building| found.has(&building.name)) {
         return;
     }
     let links = ("link", facts.scene.links.as_slice());
@@ -38,7 +38,7 @@ fn tie(link: &Link) -> &'static str {
 
 /// What slips is no tie, however stiff its brace.
 fn stiff(facts: &Facts<'_>, link: &Link) -> Odd {
-    let storeys = link.ends().map(|end| stiffest(facts.building(end.side)));
+    let storeys = link.ends().map(|end| stiffest(facts.building(end.building)));
     let factor = link.stiffness / storeys.fold(0.0, f64::max);
     (factor > TIE && link.slip.is_none()).then(|| {
         let (tie, units) = (tie(link), facts.scene.units);
@@ -59,8 +59,8 @@ fn stiffest(building: &Building) -> f64 {
 fn overdamped(facts: &Facts<'_>, link: &Link) -> Odd {
     let swinging = link.ends().filter_map(|end| {
         let Place::Floor(floor) = end.place else { return None };
-        let first = facts.swinging(end.side)?;
-        Some((first.shape[floor].powi(2) / inertia_of(first, facts.building(end.side)), first.omega))
+        let first = facts.swinging(end.building)?;
+        Some((first.shape[floor].powi(2) / inertia_of(first, facts.building(end.building)), first.omega))
     });
     let (inverse_mass, omega) = swinging.fold((0.0, 0.0_f64), |(sum, most), (one, omega)| (sum + one, most.max(omega)));
     if omega == 0.0 {
@@ -81,9 +81,9 @@ fn overdamped(facts: &Facts<'_>, link: &Link) -> Odd {
 fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
     let slip = link.slip?;
     let peak = facts.peak.filter(|peak| *peak > 0.0 && !ground_is_odd);
-    let weight = |side: Side| STANDARD_GRAVITY * facts.building(side).mass.iter().sum::<f64>();
-    let share = slip.force / link.ends().map(|end| weight(end.side)).fold(f64::INFINITY, f64::min);
-    let sways = || link.ends().map(|end| facts.sway(end.side)).sum::<Option<f64>>();
+    let weight = |id: BuildingId| STANDARD_GRAVITY * facts.building(id).mass.iter().sum::<f64>();
+    let share = slip.force / link.ends().map(|end| weight(end.building)).fold(f64::INFINITY, f64::min);
+    let sways = || link.ends().map(|end| facts.sway(end.building)).sum::<Option<f64>>();
     let reach = peak.and_then(|_| sways()).filter(|_| !facts.starts_moving());
     let travel = slip.force / link.stiffness;
     let why = match reach {
@@ -103,7 +103,7 @@ fn never_slips(facts: &Facts<'_>, link: &Link, ground_is_odd: bool) -> Odd {
 
 fn always_slips(facts: &Facts<'_>, link: &Link) -> Odd {
     let slip = link.slip?;
-    let weight = |end: Share| STANDARD_GRAVITY * facts.building(end.side).inertia(end.place);
+    let weight = |end: Share| STANDARD_GRAVITY * facts.building(end.building).inertia(end.place);
     let share = slip.force / link.ends().map(weight).fold(f64::INFINITY, f64::min);
     (share < ALWAYS_EXCEEDED).then(|| {
         let given = was_given(facts.scene.units, Units::Si, "N");

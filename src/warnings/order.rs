@@ -3,7 +3,7 @@
 use super::facts::Facts;
 use super::found::Found;
 use crate::figures::{short, six_decimals};
-use crate::scene::{Building, Heights, Side, Stiffness};
+use crate::scene::{Building, Heights, Stiffness};
 
 /// Last over first entry from which on a list grows, where it is not the scatter of masses and stiffnesses.
 const GROWS: f64 = 1.15;
@@ -22,10 +22,10 @@ pub(super) const HIGHEST_STOREY: f64 = 30.0;
 
 /// Masses, stiffnesses and yield forces that grow upwards.
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in Side::BOTH {
-        let building = facts.building(side);
+    for building in &facts.scene.buildings {
+        let name = &building.name;
         let mut look_at = |key: &str, values: &[f64], least: f64, others: &str| {
-            let path = format!("{side}.{key}");
+            let path = format!("{name}.{key}");
             if !found.has(&path) && grow_upwards(values, least) {
                 let text = format!(
                     "the top floor has {} times what the lowest one has, floor by floor more, where {others}; lists begin \
@@ -60,7 +60,7 @@ fn grow_upwards(values: &[f64], least: f64) -> bool {
 }
 
 /// Heights that are levels of the floors.
-pub(super) fn look_at_heights(side: Side, building: &Building, found: &mut Found) {
+pub(super) fn look_at_heights(building: &Building, found: &mut Found) {
     let Some(Heights { storeys, base_level }) = &building.heights else { return };
     let upwards = are_levels(storeys);
     let mut levels = storeys.clone();
@@ -83,7 +83,7 @@ pub(super) fn look_at_heights(side: Side, building: &Building, found: &mut Found
         crate::scene::excerpt(&crate::scene::numbers(&meant)).trim_matches(['[', ']'])
     );
     let text = if upwards { text } else { text.replace("than the last", "than the next") };
-    found.numbers(format!("{side}.height"), storeys, text);
+    found.numbers(format!("{}.height", building.name), storeys, text);
 }
 
 /// Whether numbers that should be heights of storeys grow like the levels of floors.

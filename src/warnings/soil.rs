@@ -5,7 +5,7 @@ use super::facts::Facts;
 use super::found::Found;
 use crate::figures::short;
 use crate::scene::{Building, Foundation, Soil, Units};
-use crate::structure::{FirstMode, Side};
+use crate::structure::FirstMode;
 
 /// First period on the soil over that on a fixed base, beyond which and up to which soil is odd.
 const MOST_LENGTHENED: f64 = 2.0;
@@ -16,15 +16,20 @@ const RADII: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 const KILO: f64 = 1e3;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in Side::BOTH {
-        let building = facts.building(side);
+    for id in facts.scene.ids() {
+        let building = facts.building(id);
         // A building with other units makes its soil look odd.
-        let (Some(foundation), false) = (&building.foundation, found.has(side.name())) else { continue };
-        if let Some(first) = &facts.first[side as usize] {
-            look_at_period(facts, side, foundation, springs(building, first, foundation), found);
+        let (Some(foundation), false) = (&building.foundation, found.has(&building.name)) else { continue };
+        if let Some(first) = &facts.first[id.index()] {
+            look_at_period(
+                (facts.scene.units, &building.name),
+                foundation,
+                springs(building, first, foundation),
+                found,
+            );
         }
-        look_at_dashpots(side, building, foundation, found);
-        look_at_inertia(side, foundation, found);
+        look_at_dashpots(building, foundation, found);
+        look_at_inertia(&building.name, foundation, found);
     }
 }
 
@@ -44,16 +49,15 @@ fn levels(building: &Building) -> impl Iterator<Item = f64> {
     building.heights.iter().flat_map(|heights| (1..).map(|i| heights.level(i) - heights.base_level))
 }
 
-fn look_at_period(facts: &Facts<'_>, side: Side, foundation: &Foundation, shares: [f64; 2], found: &mut Found) {
+fn look_at_period((units, name): (Units, &str), foundation: &Foundation, shares: [f64; 2], found: &mut Found) {
     let ratio = (1.0 + shares[0] + shares[1]).sqrt();
-    let units = facts.scene.units;
     let is_sway = shares[0] >= shares[1];
     let (key, soil, unit) = match is_sway {
         true => ("sway", foundation.sway, "N/m"),
         false => ("rocking", foundation.rocking, "N m/rad"),
     };
     let Some(soil) = soil else { return };
-    let path = format!("{side}.foundation.{key}.stiffness");
+    let path = format!("{name}.foundation.{key}.stiffness");
     let given = units.unit(unit);
     let (text, is_in_other, other) = if ratio > MOST_LENGTHENED {
         let meant = shares[0].max(shares[1]) / KILO + shares[0].min(shares[1]);
@@ -75,12 +79,13 @@ fn look_at_period(facts: &Facts<'_>, side: Side, foundation: &Foundation, shares
 }
 
 /// Judged by the building as a rigid body on the soil.
-fn look_at_dashpots(side: Side, building: &Building, foundation: &Foundation, found: &mut Found) {
+fn look_at_dashpots(building: &Building, foundation: &Foundation, found: &mut Found) {
+    let name = &building.name;
     let turned: f64 = building.mass.iter().zip(levels(building)).map(|(m, level)| m * level * level).sum();
     let mass = foundation.mass + building.mass.iter().sum::<f64>();
     let of = [("sway", foundation.sway, mass), ("rocking", foundation.rocking, foundation.inertia + turned)];
     for (key, soil, inertia) in of {
-        let spring_is_odd = found.has(&format!("{side}.foundation.{key}.stiffness"));
+        let spring_is_odd = found.has(&format!("{name}.foundation.{key}.stiffness"));
         let (Some(Soil { stiffness, dashpot }), false) = (soil, spring_is_odd) else { continue };
         let ratio = 0.5 * dashpot / (stiffness * inertia).sqrt();
         if ratio > 1.0 {
@@ -89,12 +94,12 @@ fn look_at_dashpots(side: Side, building: &Building, foundation: &Foundation, fo
                 "{} times critical damping of the building as it {motion} on the soil: it creeps back instead of swinging",
                 short(ratio)
             );
-            found.quantity(format!("{side}.foundation.{key}.dashpot"), dashpot, text);
+            found.quantity(format!("{name}.foundation.{key}.dashpot"), dashpot, text);
         }
     }
 }
 
-fn look_at_inertia(side: Side, foundation: &Foundation, found: &mut Found) {
+fn look_at_inertia(name: &str, foundation: &Foundation, found: &mut Found) {
     if foundation.rocking.is_none() {
         return;
     }
@@ -104,6 +109,6 @@ fn look_at_inertia(side: Side, foundation: &Foundation, found: &mut Found) {
             "that of the mass of the foundation at {} m from its centre: no foundation is like that",
             short(radius)
         );
-        found.quantity(format!("{side}.foundation.inertia"), foundation.inertia, text);
+        found.quantity(format!("{name}.foundation.inertia"), foundation.inertia, text);
     }
 }

@@ -5,7 +5,7 @@ use crate::contact::{ImpactLaw, StiffnessUnit};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{ContactPair, Place};
-use crate::structure::Side;
+use crate::structure::BuildingId;
 use std::f64::consts::PI;
 
 /// Speed of sound in concrete, m/s.
@@ -38,8 +38,8 @@ impl Touch {
         let energy = 0.5 * reduced * speed * speed;
         let depth = ((exponent + 1.0) * energy / pair.law.stiffness).powf(1.0 / (exponent + 1.0));
         // Equal storeys: the period of one of them, of that of them all.
-        let storey = |(side, period): (Side, f64)| {
-            period * (2.0 * (PI / (4 * facts.building(side).mass.len() + 2) as f64).sin())
+        let storey = |(id, period): (BuildingId, f64)| {
+            period * (2.0 * (PI / (4 * facts.building(id).mass.len() + 2) as f64).sin())
         };
         let period = facts.usual_periods().map(|(_, period)| period).reduce(f64::max);
         Some(Touch {
@@ -77,7 +77,7 @@ impl Touch {
 /// The mass of the lightest floor that takes part, kg.
 pub(super) fn lightest(facts: &Facts<'_>, pair: &ContactPair) -> Option<f64> {
     let moved = pair.row(facts.scene).filter(|share| share.place != Place::Rotation);
-    moved.map(|share| facts.building(share.side).inertia(share.place)).reduce(f64::min)
+    moved.map(|share| facts.building(share.building).inertia(share.place)).reduce(f64::min)
 }
 
 /// Of the penetration; none for rigid floors.
@@ -96,7 +96,7 @@ fn speed(facts: &Facts<'_>) -> f64 {
         let peak = facts.peak.filter(|peak| *peak > 0.0).unwrap_or(0.3 * STANDARD_GRAVITY);
         peak * period / (2.0 * PI)
     });
-    let start = |side| facts.building(side).initial_velocity.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    let most = Side::BOTH.into_iter().map(start).fold(shaken, f64::max);
+    let starts = facts.scene.buildings.iter().flat_map(|building| &building.initial_velocity);
+    let most = starts.fold(shaken, |most, v| most.max(v.abs()));
     if most > 0.0 { most.clamp(0.05, 2.0) } else { 0.3 }
 }

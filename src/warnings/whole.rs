@@ -4,8 +4,8 @@
 use super::facts::{Facts, Pace, mean_mass};
 use super::found::Found;
 use crate::figures::short;
-use crate::scene::Units;
-use crate::structure::Side;
+use crate::scene::{Building, Units};
+use crate::structure::BuildingId;
 
 /// Where a scene has been given in t and kN without saying so.
 pub(super) const IN_KN_T: &str = " (a scene with units = \"kN-t\" takes t and kN throughout)";
@@ -21,14 +21,15 @@ const FAST: f64 = 0.07;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     let is_sound = |pace: &Pace| matches!(pace, Pace::Usual | Pace::Wall);
-    if !facts.pace.iter().all(is_sound) || found.has("left") || found.has("right") {
+    let is_odd = |building: &Building| found.has(&building.name);
+    if !facts.pace.iter().all(is_sound) || facts.scene.buildings.iter().any(is_odd) {
         return;
     }
     // A wall may have any mass.
-    let sides: Vec<(Side, f64)> = facts.usual_periods().collect();
+    let sides: Vec<(BuildingId, f64)> = facts.usual_periods().collect();
     let Some(&(first, _)) = sides.first() else { return };
-    let mean = |side: Side| mean_mass(facts.building(side));
-    let are_all = |size: fn(f64) -> bool| sides.iter().all(|&(side, _)| size(mean(side)));
+    let mean = |id: BuildingId| mean_mass(facts.building(id));
+    let are_all = |size: fn(f64) -> bool| sides.iter().all(|&(id, _)| size(mean(id)));
     let mass = short(facts.scene.units.written(mean(first)));
     let text = match facts.scene.units {
         Units::KilonewtonTonne if are_all(|mass| mass >= HEAVY) => format!(
@@ -41,15 +42,15 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         ),
         _ => return,
     };
-    found.quantities(format!("{}.mass", first), &facts.building(first).mass, text);
+    found.quantities(format!("{}.mass", facts.building(first).name), &facts.building(first).mass, text);
 }
 
 /// Frames in laboratories may be as light, but seldom are as slow and as far apart, and have fewer floors.
-fn is_like_buildings(facts: &Facts<'_>, sides: &[(Side, f64)]) -> bool {
-    let floors = |side: Side| facts.building(side).mass.len();
+fn is_like_buildings(facts: &Facts<'_>, sides: &[(BuildingId, f64)]) -> bool {
+    let floors = |id: BuildingId| facts.building(id).mass.len();
     let contacts = &facts.scene.contacts;
-    sides.iter().map(|&(side, _)| floors(side)).sum::<usize>() >= 4
-        && sides.iter().all(|&(side, period)| period >= FAST * floors(side) as f64)
+    sides.iter().map(|&(id, _)| floors(id)).sum::<usize>() >= 4
+        && sides.iter().all(|&(id, period)| period >= FAST * floors(id) as f64)
         && !contacts.is_empty()
         && contacts.iter().all(|pair| pair.gap >= WIDE)
 }

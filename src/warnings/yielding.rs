@@ -5,7 +5,7 @@ use super::found::Found;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, Damping, Units};
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// Share of the weight above that even isolators have as their yield force, which are the first storey.
 const LEAST_ISOLATOR: f64 = 0.01;
@@ -19,15 +19,16 @@ const MUCH_STRONGER: f64 = 3.0;
 const ODD: f64 = 6.0;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
-    for side in Side::BOTH {
-        let storeys = Storey::all(facts.building(side));
-        let is_sound = !found.has(&format!("{side}.mass")) && facts.pace(side) != Pace::Slow;
+    for id in facts.scene.ids() {
+        let building = facts.building(id);
+        let (name, storeys) = (&building.name, Storey::all(building));
+        let is_sound = !found.has(&format!("{name}.mass")) && facts.pace(id) != Pace::Slow;
         if storeys.is_empty() || !is_sound {
             continue;
         }
-        look_at_forces(facts, side, &storeys, found);
-        look_at_neighbours(side, &storeys, found);
-        look_at_isolators(facts, side, &storeys, found);
+        look_at_forces(facts, id, &storeys, found);
+        look_at_neighbours(name, &storeys, found);
+        look_at_isolators(facts, id, &storeys, found);
     }
 }
 
@@ -51,14 +52,14 @@ impl Storey {
         storeys.collect()
     }
 
-    fn path(&self, side: Side) -> String {
-        format!("{side}.yield_force[{}]", self.index + 1)
+    fn path(&self, name: &str) -> String {
+        format!("{name}.yield_force[{}]", self.index + 1)
     }
 }
 
 /// Forces that make a storey one that never yields, or one that always does.
-fn look_at_forces(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut Found) {
-    let Some(yielding) = &facts.building(side).yielding else { return };
+fn look_at_forces(facts: &Facts<'_>, id: BuildingId, storeys: &[Storey], found: &mut Found) {
+    let Building { name, yielding: Some(yielding), .. } = facts.building(id) else { return };
     let shaken = shaken(facts.peak);
     let is_large = |storey: &&Storey| storey.share > NEVER_REACHED * shaken;
     let is_small = |storey: &&Storey| storey.share < if storey.index == 0 { LEAST_ISOLATOR } else { LEAST_STOREY };
@@ -67,7 +68,7 @@ fn look_at_forces(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut
         let given = was_given(facts.scene.units, given_in, "N");
         let text = format!("{} times the weight above: {meaning}{given}", short(first.share));
         let indices: Vec<usize> = odd.iter().map(|storey| storey.index).collect();
-        found.entries(&format!("{side}.yield_force"), &yielding.force, &indices, storeys.len(), |_| text.clone());
+        found.entries(&format!("{name}.yield_force"), &yielding.force, &indices, storeys.len(), |_| text.clone());
     };
     let never = "the storey will never yield, which inf would say as well";
     tell(storeys.iter().filter(is_large).collect(), never, Units::KilonewtonTonne);
@@ -76,8 +77,8 @@ fn look_at_forces(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut
 }
 
 /// Storeys far weaker or stronger for the weight above them than those beside. Isolators are weaker than what they carry.
-fn look_at_neighbours(side: Side, storeys: &[Storey], found: &mut Found) {
-    if found.has(&format!("{side}.yield_force")) {
+fn look_at_neighbours(name: &str, storeys: &[Storey], found: &mut Found) {
+    if found.has(&format!("{name}.yield_force")) {
         return;
     }
     let Some(usual) = median(storeys.iter().map(|storey| storey.share)) else { return };
@@ -93,17 +94,18 @@ fn look_at_neighbours(side: Side, storeys: &[Storey], found: &mut Found) {
                 short(storey.share),
                 how_many_times(factor)
             );
-            found.quantity(storey.path(side), storey.force, text);
+            found.quantity(storey.path(name), storey.force, text);
         }
     }
 }
 
 /// A ratio is of the stiffness before yield: isolators yield early, and are far softer from then on.
-fn look_at_isolators(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut Found) {
-    let building = facts.building(side);
+fn look_at_isolators(facts: &Facts<'_>, id: BuildingId, storeys: &[Storey], found: &mut Found) {
+    let building = facts.building(id);
+    let name = &building.name;
     let Some(first) = storeys.first().filter(|first| first.index == 0 && first.share < MOST_ISOLATOR) else { return };
     let is_carried = |storey: &Storey| storey.share > MUCH_STRONGER * first.share;
-    let is_known = ["yield_force", "damping"].iter().any(|key| found.has(&format!("{side}.{key}")));
+    let is_known = ["yield_force", "damping"].iter().any(|key| found.has(&format!("{name}.{key}")));
     if building.mass.len() < 2 || !storeys[1..].iter().all(is_carried) || is_known {
         return;
     }
@@ -112,7 +114,7 @@ fn look_at_isolators(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &
          them a damping that they do not have: {{ dashpots = [...] }} has one for each storey",
         short(first.share)
     );
-    let path = |key: &str| format!("{side}.damping.{key}");
+    let path = |key: &str| format!("{name}.damping.{key}");
     match &building.damping {
         Damping::Ratio(ratio) if *ratio > 0.0 => found.number(path("ratio"), *ratio, text),
         Damping::Ratios(ratios) if ratios[0] > 0.0 => found.number(path("ratios[1]"), ratios[0], text),

@@ -6,8 +6,8 @@ pub mod peaks;
 pub mod problems;
 
 use pounding::engine::{
-    ContactPoint, EnergyPoint, Episode, FoundationOutput, Instant, Model, Output, PeakOf, Point, SavedState, Side,
-    State, YieldingOf,
+    BuildingId, ContactPoint, EnergyPoint, Episode, FoundationOutput, Instant, Model, Output, PeakOf, Point,
+    SavedState, State, YieldingOf,
 };
 use pounding::record::Record;
 use pounding::scene::Scene;
@@ -16,6 +16,16 @@ use problems::two_masses::{Mass, TwoMasses};
 /// A scene from TOML text; panics with every problem.
 pub fn scene(toml: &str) -> Scene {
     Scene::from_toml(toml).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The other one of two buildings.
+pub fn other(id: BuildingId) -> BuildingId {
+    if id == BuildingId::LEFT { BuildingId::RIGHT } else { BuildingId::LEFT }
+}
+
+/// The name of one of two buildings.
+pub fn name(id: BuildingId) -> &'static str {
+    ["left", "right"][id.index()]
 }
 
 /// Two free masses [kg]: left with `speed` [m/s], right at rest, 1 mm apart.
@@ -35,7 +45,7 @@ pub struct Run {
     pub point: Point,
     pub episodes: Vec<Episode>,
     /// The storeys that can yield, counted from 0.
-    pub yielding: Vec<(Side, usize)>,
+    pub yielding: Vec<(BuildingId, usize)>,
     /// Heights of the storeys that lean with their foundation, m; 0 of others.
     pub leaning: [Vec<f64>; 2],
 }
@@ -67,9 +77,9 @@ impl Run {
         let model = Model::new(scene, record).unwrap_or_else(|error| panic!("{error}"));
         let state = model.start(start);
         let of = |side| (0..model.floors(side)).map(move |storey| (side, storey));
-        let can_yield = |&(side, storey): &(Side, usize)| scene.building(side).yielding_storey(storey).is_some();
-        let yielding = of(Side::Left).chain(of(Side::Right)).filter(can_yield).collect();
-        let leaning = [&scene.left, &scene.right].map(|building| {
+        let can_yield = |&(side, storey): &(BuildingId, usize)| scene.building(side).yielding_storey(storey).is_some();
+        let yielding = of(BuildingId::LEFT).chain(of(BuildingId::RIGHT)).filter(can_yield).collect();
+        let leaning = [&scene.buildings[0], &scene.buildings[1]].map(|building| {
             let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
             building.heights.as_ref().filter(|_| rocks).map(|heights| heights.storeys.clone()).unwrap_or_default()
         });
@@ -114,23 +124,23 @@ impl Run {
         self.now().read(output)
     }
 
-    pub fn displacement(&self, side: Side, floor: usize) -> f64 {
+    pub fn displacement(&self, side: BuildingId, floor: usize) -> f64 {
         self.read(Output::Displacement(side, floor))
     }
 
     /// The drift that strains a storey, from displacements of floors and of the foundation, m.
-    pub fn drift(&self, side: Side, storey: usize) -> f64 {
+    pub fn drift(&self, side: BuildingId, storey: usize) -> f64 {
         let of_foundation = |of| self.read(Output::Foundation(side, of));
         let below = match storey.checked_sub(1) {
             Some(below) => self.displacement(side, below),
             None => of_foundation(FoundationOutput::Displacement),
         };
-        let height = self.leaning[side as usize].get(storey).copied().unwrap_or(0.0);
+        let height = self.leaning[side.index()].get(storey).copied().unwrap_or(0.0);
         let lean = if height == 0.0 { 0.0 } else { height * of_foundation(FoundationOutput::Rotation) };
         self.displacement(side, storey) - below - lean
     }
 
-    pub fn velocity(&self, side: Side, floor: usize) -> f64 {
+    pub fn velocity(&self, side: BuildingId, floor: usize) -> f64 {
         self.read(Output::Velocity(side, floor))
     }
 
@@ -146,7 +156,7 @@ impl Run {
         (0..self.model.contacts()).map(|p| self.contact(p)).collect()
     }
 
-    pub fn storey(&self, side: Side, storey: usize) -> ShownStorey {
+    pub fn storey(&self, side: BuildingId, storey: usize) -> ShownStorey {
         let of = |of| self.read(Output::OfYielding(of, side, storey));
         ShownStorey {
             shear: of(YieldingOf::Shear),
@@ -177,7 +187,7 @@ impl Run {
     /// The same with these contacts.
     pub fn bits_with(&self, contacts: &[ContactPoint]) -> Vec<u64> {
         let mut values = Vec::new();
-        for side in [Side::Left, Side::Right] {
+        for side in [BuildingId::LEFT, BuildingId::RIGHT] {
             for floor in 0..self.model.floors(side) {
                 values.push(self.displacement(side, floor));
                 values.push(self.velocity(side, floor));
@@ -201,8 +211,8 @@ impl Run {
 
 /// Presses the floors of two single masses together with the same force from both sides, N.
 pub fn press(run: &mut Run, force: f64) {
-    run.state.set_floor_force(Side::Left, 0, force);
-    run.state.set_floor_force(Side::Right, 0, -force);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
+    run.state.set_floor_force(BuildingId::RIGHT, 0, -force);
 }
 
 /// Relative difference, for a message.

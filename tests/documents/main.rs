@@ -8,7 +8,7 @@ mod laws;
 mod tables;
 
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
-use pounding::engine::{Model, Side};
+use pounding::engine::{BuildingId, Model};
 use pounding::record::Record;
 use pounding::scene::{ColumnShape, Scene, law_key};
 use pounding::variables::{Row, Slot, Table, Type, highest_output_derivative};
@@ -116,7 +116,7 @@ fn offices_as_written() -> String {
 fn the_contacts_of_the_guide_are_those_that_one_would_write() {
     let facing = Scene::from_toml(&read("examples/scenes/offices.toml")).unwrap();
     let by_hand = Scene::from_toml(&read("tests/problems/offices_pair_by_pair.toml")).unwrap();
-    assert_eq!((facing.contacts, facing.left.mass), (by_hand.contacts, by_hand.left.mass));
+    assert_eq!((facing.contacts, &facing.buildings[0].mass), (by_hand.contacts, &by_hand.buildings[0].mass));
 }
 
 #[test]
@@ -179,16 +179,16 @@ fn the_foundation_of_the_page_on_soil_is_that_of_its_formulas() {
     let warnings = pounding::warnings::of(&scene, None);
     let is_of_soil = |warning: &&pounding::warnings::Warning| warning.path != "contact";
     assert!(!warnings.iter().any(|warning| is_of_soil(&warning)), "{warnings:?}");
-    let foundation = scene.left.foundation.as_ref().unwrap();
+    let foundation = scene.buildings[0].foundation.as_ref().unwrap();
     let (density, poisson, speed, length, width) = (1800.0, 1.0 / 3.0, 200.0_f64, 9.0_f64, 6.0_f64);
-    let frequency = Model::new(&scene, None).unwrap().natural_frequencies(Side::Left)[0];
-    let omega = 2.0 * std::f64::consts::PI * frequency / pounding::structure::period_ratio(&scene.left);
+    let frequency = Model::new(&scene, None).unwrap().natural_frequencies(BuildingId::LEFT)[0];
+    let omega = 2.0 * std::f64::consts::PI * frequency / pounding::structure::period_ratio(&scene.buildings[0]);
     let (modulus, aspect, a2) = (density * speed * speed, length / width, (omega * width / speed).powi(2));
     let alpha = 1.0 - 0.55 * a2 / (0.6 + 1.4 / aspect.powi(3) + a2);
     let beta = a2 / (1.8 / (1.0 + 1.75 * (aspect - 1.0)) + a2);
     let moment_of_area = 4.0 * width * length.powi(3) / 3.0;
     let mass = 2500.0 * 0.6 * 4.0 * length * width;
-    let all = mass + scene.left.mass.iter().sum::<f64>();
+    let all = mass + scene.buildings[0].mass.iter().sum::<f64>();
     let [sway, rocking] = [foundation.sway.unwrap(), foundation.rocking.unwrap()];
     for (written, expected) in [
         (foundation.mass, mass),

@@ -4,7 +4,7 @@
 use crate::common::problems::frames::{Frames, MATRIX, RATIO, RAYLEIGH, zigzag};
 use crate::common::problems::laws::Laws;
 use crate::common::{Run, record, scene};
-use pounding::engine::{SavedState, Side};
+use pounding::engine::{BuildingId, SavedState};
 use pounding::record::Record;
 use pounding::scene::{Scene, Yielding};
 
@@ -63,7 +63,7 @@ impl Case {
         let mut scene = scene(&Frames { storeys, damping, gap, law, energy, floor_forces }.toml());
         if yields {
             let force = (0..storeys).map(|i| if i == 1 { f64::INFINITY } else { 1e5 - 1e3 * i as f64 });
-            scene.left.yielding = Some(Yielding::new(force.collect(), vec![0.05; storeys]));
+            scene.buildings[0].yielding = Some(Yielding::new(force.collect(), vec![0.05; storeys]));
         }
         let has_record = drive != Drive::Inputs;
         scene.ground.record = has_record.then(|| "zigzag.csv".into());
@@ -88,8 +88,8 @@ impl Case {
         }
         if self.drive != Drive::Record {
             let force = if (150..350).contains(&k) { 5e5 } else { 1e3 * (k % 7) as f64 };
-            run.state.set_floor_force(Side::Left, self.storeys - 1, force);
-            run.state.set_floor_force_rate(Side::Left, self.storeys - 1, 1e4 * acceleration(k % 50));
+            run.state.set_floor_force(BuildingId::LEFT, self.storeys - 1, force);
+            run.state.set_floor_force_rate(BuildingId::LEFT, self.storeys - 1, 1e4 * acceleration(k % 50));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{Run, scene};
 use nalgebra::{DMatrix, DVector};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 
 /// Free masses, kg and m/s, and the pairs (left floor, right floor, gap, e) between them.
@@ -105,7 +105,8 @@ impl Bodies {
 
 /// Of all floors, left ones first.
 pub fn velocities(run: &Run) -> DVector<f64> {
-    let floors = [Side::Left, Side::Right].map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)));
+    let floors =
+        [BuildingId::LEFT, BuildingId::RIGHT].map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)));
     let all: Vec<f64> = floors.into_iter().flatten().map(|(side, floor)| run.velocity(side, floor)).collect();
     DVector::from_vec(all)
 }

@@ -5,11 +5,11 @@
 use crate::common::problems::frames::zigzag;
 use crate::common::problems::laws::{Laws, contact};
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{FoundationOutput as F, Input, Output, PeakOf, Response, Side, StoreyPeak, YieldingOf};
+use pounding::engine::{BuildingId, FoundationOutput as F, Input, Output, PeakOf, Response, StoreyPeak, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
-const LEFT: Side = Side::Left;
+const LEFT: BuildingId = BuildingId::LEFT;
 
 /// Three storeys beside two, with an account of energy; `law` of their contacts at two levels.
 fn frames(inputs: &str, left: &str, law: &str) -> Scene {
@@ -77,7 +77,7 @@ fn the_motion_is_that_of_a_pair_of_forces() {
                     // A contact makes of 1e-13 m what its stiffness does.
                     close(Output::Acceleration(LEFT, i), 1e-6);
                 }
-                close(Output::Displacement(Side::Right, 1), 1e-13);
+                close(Output::Displacement(BuildingId::RIGHT, 1), 1e-13);
                 let force = |i: usize| {
                     let now = if is_held { k - 1 } else { k };
                     said(now, i)

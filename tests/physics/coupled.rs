@@ -2,7 +2,7 @@
 //! integration of the whole with a step so small that its own error does not show. Nothing of the engine is in it.
 
 use crate::common::record;
-use pounding::engine::{EnergyOutput, Model, Output, Side};
+use pounding::engine::{BuildingId, EnergyOutput, Model, Output};
 use pounding::scene::Scene;
 use pounding_simulate::couple::{How, Outside, couple};
 use pounding_simulate::instants;
@@ -226,16 +226,17 @@ impl Integration<'_> {
 fn coupled(scene: &Scene, samples: &[f64], buildings: &[Building; 2], how: How, step: f64) -> (Vec<Vec<f64>>, f64) {
     let model = Model::new(scene, Some(&record(SAMPLE, samples))).unwrap();
     let mut moved = buildings.clone();
-    let outside = Side::BOTH.into_iter().zip(&mut moved).map(|(side, building)| {
+    let outside = model.buildings().zip(&mut moved).map(|(side, building)| {
         let answer = |displacements: &[f64]| Ok::<_, Infallible>(forces(&mut building.storeys, displacements));
-        Outside { side, forces: Box::new(answer) }
+        Outside { building: side, forces: Box::new(answer) }
     });
     let Ok(run) = couple(&model, scene, outside.collect(), how, (step, STOP)) else { panic!("the run ends early") };
     assert_eq!(run.stiffer, [], "no storey is stiffer than at first");
     let (mut rows, mut residual) = (Vec::new(), 0.0_f64);
     let show = |now: Solved<'_>| {
-        let floors = Side::BOTH.into_iter().zip(buildings);
-        let of = |(side, building): (Side, &Building)| (0..building.storeys.len()).map(move |floor| (side, floor));
+        let floors = model.buildings().zip(buildings);
+        let of =
+            |(side, building): (BuildingId, &Building)| (0..building.storeys.len()).map(move |floor| (side, floor));
         rows.push(floors.flat_map(of).map(|(side, floor)| now.read(Output::Displacement(side, floor))).collect());
         residual = residual.max(now.read(Output::Energy(EnergyOutput::Residual)).abs());
         Ok::<(), String>(())

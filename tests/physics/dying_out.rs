@@ -3,7 +3,7 @@
 
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use std::f64::consts::TAU;
 
 const LAWS: [&str; 8] = [
@@ -37,13 +37,13 @@ fn a_motion_that_dies_out_ends_at_rest_and_begins_anew() {
         assert!(impacts > 100, "{law}: {impacts}");
         run.in_steps(50.0, 1000.0);
         assert_eq!(run.point.impacts, impacts, "{law}");
-        for side in Side::BOTH {
+        for side in run.model.buildings() {
             assert_eq!((run.displacement(side, 0), run.velocity(side, 0)), (0.0, 0.0), "{law}");
         }
         // Away from the other one.
-        run.state.set_floor_force(Side::Left, 0, -1e5);
+        run.state.set_floor_force(BuildingId::LEFT, 0, -1e5);
         run.to(1100.0);
-        assert_close(run.displacement(Side::Left, 0), -1e5 / stiffness(2.0), 1e-14, law);
-        assert_eq!(run.displacement(Side::Right, 0), 0.0, "{law}");
+        assert_close(run.displacement(BuildingId::LEFT, 0), -1e5 / stiffness(2.0), 1e-14, law);
+        assert_eq!(run.displacement(BuildingId::RIGHT, 0), 0.0, "{law}");
     }
 }

@@ -2,7 +2,7 @@
 //! ends, and what the equation of motion integrates to.
 
 use crate::common::{self, scene};
-use pounding::scene::{Link, Place, Scene};
+use pounding::scene::{BuildingId, Link, Place, Scene};
 use pounding::structure::{
     Counts, FlightEnergy, FlightWork, Interval, LANES, Lane, LinearGround, LinearLoad, Motion, MotionMut, Scratch,
     Structure, WorkRoom, dot,
@@ -118,7 +118,8 @@ fn coupled() -> Vec<Structure> {
     };
     let alone = structure(&scene);
     let link = |floor: usize, dashpot: f64| {
-        let (left, right) = (Some(Place::Floor(floor)), Some(Place::Floor(floor + 1)));
+        let end = |id, floor| Some((id, Place::Floor(floor)));
+        let (left, right) = (end(BuildingId::LEFT, floor), end(BuildingId::RIGHT, floor + 1));
         Link { left, right, stiffness: 40.0, dashpot, slip: None }
     };
     scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];
@@ -178,7 +179,7 @@ fn over_all(structure: &Structure, start: &State, length: f64) -> Vec<(FlightEne
 #[test]
 fn work_of_dashpots_that_couple_modes_balances_the_energy() {
     for (structure, length) in coupled().iter().flat_map(|of| LENGTHS.map(|length| (of, length))) {
-        let modes = structure.modes_of_both();
+        let modes = structure.modes_of_all();
         let start: State = [0.3, -0.5]
             .map(|size| (0..structure.lanes).map(|m| if m < modes { size / (m + 1) as f64 } else { 0.0 }).collect());
         for (k, (over, dashpots)) in over_all(structure, &start, length).iter().enumerate() {
@@ -235,7 +236,7 @@ fn work_of_dashpots(structure: &Structure, start: &State, (a, s): (f64, f64), le
 #[test]
 fn flights_side_by_side_do_not_change_each_other() {
     for structure in coupled() {
-        let modes = structure.modes_of_both();
+        let modes = structure.modes_of_all();
         let start =
             [0.2, 0.7].map(|size: f64| (0..structure.lanes).map(|m| if m < modes { size } else { 0.0 }).collect());
         let all = over_all(&structure, &start, 0.02);

@@ -5,7 +5,7 @@
 //! displacement (velocity, force ...), about three times what was measured when the test was written.
 
 use crate::common::Run;
-use pounding::engine::{Episode, FoundationOutput, Output, Side};
+use pounding::engine::{BuildingId, Episode, FoundationOutput, Output};
 use pounding::record::Record;
 use pounding::scene::{self, Scene};
 use std::collections::HashMap;
@@ -58,7 +58,7 @@ fn of_foundations(golden: &Golden) -> Vec<(String, Output, f64)> {
     let is_of_foundation = |column: &&String| column.contains(".foundation.");
     let found = golden.rows[0].keys().filter(is_of_foundation).map(|column| {
         let (side, name) = column.split_once(".foundation.").unwrap();
-        let side = if side == "left" { Side::Left } else { Side::Right };
+        let side = if side == "left" { BuildingId::LEFT } else { BuildingId::RIGHT };
         let (_, of) = names.iter().find(|(of, _)| *of == name).unwrap();
         let largest = golden.rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
         (column.clone(), Output::Foundation(side, *of), largest)
@@ -77,7 +77,7 @@ fn worst_motion(golden: &Golden, run: &mut Run, mut advance: impl FnMut(&mut Run
         for (column, of, largest) in &foundations {
             worst = worst.max((run.read(*of) - row[column]).abs() / largest / sensitivity);
         }
-        for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
+        for (side, name) in [(BuildingId::LEFT, "left"), (BuildingId::RIGHT, "right")] {
             for floor in 0..run.model.floors(side) {
                 let exact = |quantity: &str| row[&format!("{name}.{quantity}[{}]", floor + 1)];
                 worst = worst.max((run.displacement(side, floor) - exact("displacement")).abs() / u / sensitivity);
@@ -181,7 +181,7 @@ fn compare_forces(scene_path: &str, name: &str, allowed: f64) {
     scene.ground.record = None;
     scene.floor_forces = true;
     let push = |run: &mut Run, acceleration: f64, rate: f64| {
-        for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+        for (side, building) in [(BuildingId::LEFT, &scene.buildings[0]), (BuildingId::RIGHT, &scene.buildings[1])] {
             for (floor, mass) in building.mass.iter().enumerate() {
                 run.state.set_floor_force(side, floor, -mass * factor * acceleration);
                 run.state.set_floor_force_rate(side, floor, -mass * factor * rate);

@@ -2,8 +2,8 @@
 //! of rest: plastic drifts are unknowns of its own. Displacements, velocities, energies and impacts of the same scenes are
 //! compared in `golden.rs`.
 
-use crate::common::Run;
-use pounding::engine::{LinkOutput, Output, Side, YieldingOf};
+use crate::common::{Run, other};
+use pounding::engine::{BuildingId, LinkOutput, Output, YieldingOf};
 use pounding::scene;
 use std::collections::HashMap;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn run_of(name: &str) -> Run {
 /// What yields or slips, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Place {
-    Storey(Side, usize),
+    Storey(BuildingId, usize),
     Link(usize),
 }
 
@@ -41,8 +41,8 @@ impl Place {
         let number = number.parse::<usize>().unwrap() - 1;
         match of {
             "link" => Place::Link(number),
-            "left" => Place::Storey(Side::Left, number),
-            "right" => Place::Storey(Side::Right, number),
+            "left" => Place::Storey(BuildingId::LEFT, number),
+            "right" => Place::Storey(BuildingId::RIGHT, number),
             _ => panic!("{of}"),
         }
     }
@@ -158,10 +158,10 @@ fn compare(name: &str, allowed: f64, count: usize) {
 }
 
 /// The storey that falls, the way it falls and, s, when; every scene that ends so tells it last.
-fn collapse(name: &str) -> Option<(Side, usize, f64, f64)> {
+fn collapse(name: &str) -> Option<(BuildingId, usize, f64, f64)> {
     let rows = table(&format!("{name}.yields.csv"));
     let row = rows.last().filter(|row| row["kind"].starts_with("collapses"))?;
-    let side = if row["building"] == "left" { Side::Left } else { Side::Right };
+    let side = if row["building"] == "left" { BuildingId::LEFT } else { BuildingId::RIGHT };
     let sign = if row["kind"].ends_with('+') { 1.0 } else { -1.0 };
     Some((side, row["storey"].parse::<usize>().unwrap() - 1, sign, number(row, "time_s")))
 }
@@ -175,8 +175,8 @@ fn without_peaks() {
         scene.peaks = peaks;
         let mut run = Run::new(&scene, record.as_ref());
         run.in_steps(0.37, 7.4);
-        let ductility = |storey| run.read(Output::OfYielding(YieldingOf::Ductility, Side::Left, storey));
-        ([0, 1, 2].map(|floor| run.displacement(Side::Left, floor).to_bits()), [0, 1, 2].map(ductility))
+        let ductility = |storey| run.read(Output::OfYielding(YieldingOf::Ductility, BuildingId::LEFT, storey));
+        ([0, 1, 2].map(|floor| run.displacement(BuildingId::LEFT, floor).to_bits()), [0, 1, 2].map(ductility))
     });
     assert_eq!(runs[0].0, runs[1].0);
     let pairs: Vec<(f64, f64)> = runs[0].1.into_iter().zip(runs[1].1).collect();
@@ -232,7 +232,7 @@ fn a_building_that_gravity_makes_lean_on_its_neighbour() {
     assert_eq!(collapse("p_delta"), None);
     let mut run = run_of("p_delta");
     run.to(20.0);
-    assert_eq!([Side::Left, Side::Right].map(|side| run.read(Output::Collapsed(side))), [0.0; 2]);
+    assert_eq!([BuildingId::LEFT, BuildingId::RIGHT].map(|side| run.read(Output::Collapsed(side))), [0.0; 2]);
 }
 
 #[test]
@@ -244,11 +244,11 @@ fn a_storey_that_gravity_lets_fall() {
     let mut run = run_of("p_delta_fall");
     run.to(20.0);
     let got = run.model.collapse(&run.state).unwrap();
-    assert_eq!((got.side, got.storey), (side, storey));
+    assert_eq!((got.building, got.storey), (side, storey));
     let error = (got.time - time).abs() / time;
     println!("collapse: off by {error:.1e} of its time");
     assert!(error < 1e-14, "collapse at {} s, not {time}: off by {error:.1e}", got.time);
-    assert_eq!([side, side.opposite()].map(|side| run.read(Output::Collapsed(side))), [1.0, 0.0]);
-    assert_eq!([side, side.opposite()].map(|side| run.read(Output::CollapseTime(side))), [got.time, -1.0]);
+    assert_eq!([side, other(side)].map(|side| run.read(Output::Collapsed(side))), [1.0, 0.0]);
+    assert_eq!([side, other(side)].map(|side| run.read(Output::CollapseTime(side))), [got.time, -1.0]);
     assert!((run.storey(side, storey).plastic * sign) > 1.0);
 }

@@ -3,7 +3,7 @@
 
 use crate::common::{Run, assert_close, free_impact};
 use pounding::contact::DampingFormula;
-use pounding::engine::{Episode, Side};
+use pounding::engine::{BuildingId, Episode};
 use std::f64::consts::PI;
 
 /// kg, left and right.
@@ -35,7 +35,7 @@ impl Impact {
         assert_close(episode.approach_velocity, speed, 1e-14, "approach velocity");
         let exchanged = m * (speed + episode.separation_velocity);
         assert_close(episode.impulse, exchanged, 1e-12, &format!("impulse = momentum, {what}"));
-        let (left, right) = (run.velocity(Side::Left, 0), run.velocity(Side::Right, 0));
+        let (left, right) = (run.velocity(BuildingId::LEFT, 0), run.velocity(BuildingId::RIGHT, 0));
         assert_close(masses.0 * left + masses.1 * right, masses.0 * speed, 1e-14, &format!("momentum, {what}"));
         let energy = 0.5 * m * speed * speed;
         let lost = 0.5 * m * (speed * speed - episode.separation_velocity * episode.separation_velocity);

@@ -2,7 +2,7 @@
 //! energy; against closed forms and against the same motion of the ground as a record.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn contact(gap: f64, law: &str) -> String {
     format!("[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {gap:?}\n{law}")
 }
 
-fn ramp(run: &mut Run, side: Side, force: f64, rate: f64) {
+fn ramp(run: &mut Run, side: BuildingId, force: f64, rate: f64) {
     run.state.set_floor_force(side, 0, force);
     run.state.set_floor_force_rate(side, 0, rate);
 }
@@ -40,13 +40,13 @@ fn a_ramp_in_flight_is_exact_in_any_communication_step() {
     for start in [0.0, 1e6] {
         for step in [0.01, 0.31, 3.1] {
             let mut run = Run::from(&bodies((1.0, W * W), (1e3, 1e7), ""), None, start);
-            ramp(&mut run, Side::Left, 2.0, -5.0);
+            ramp(&mut run, BuildingId::LEFT, 2.0, -5.0);
             run.state.set_ground_acceleration(-1.0);
             run.state.set_ground_acceleration_rate(0.7);
             run.in_steps(step, start + 3.1);
             // The ground pushes 1 kg with minus its acceleration. Far from 0 the end itself is rounded.
             let allowed = if start == 0.0 { 2e-14 } else { 1e-10 };
-            assert_close(run.displacement(Side::Left, 0), on_spring(3.0, -5.7, 3.1), allowed, "displacement");
+            assert_close(run.displacement(BuildingId::LEFT, 0), on_spring(3.0, -5.7, 3.1), allowed, "displacement");
             assert_close(run.point.ground_acceleration, -1.0 + 0.7 * 3.1, allowed, "acceleration of the ground");
             let energy = run.energy();
             assert!(energy.residual.abs() < 1e-13, "step {step}: {energy:?}");
@@ -58,7 +58,7 @@ fn a_ramp_in_flight_is_exact_in_any_communication_step() {
 fn the_work_of_a_ramp_is_that_of_its_closed_form() {
     let mut run = Run::new(&bodies((1.0, W * W), (1e3, 1e7), ""), None);
     let (f, r, t) = (2.0, -5.0, 1.3);
-    ramp(&mut run, Side::Left, f, r);
+    ramp(&mut run, BuildingId::LEFT, f, r);
     run.to(t);
     // Integral of (f + r t) du/dt, du/dt = f sin(w t) / w + r (1 - cos(w t)) / w^2.
     let (s, c) = (W * t).sin_cos();
@@ -73,7 +73,7 @@ fn a_ramp_on_one_floor_moves_all_modes() {
     let storeys = "mass = [2.0, 2.0]\nstiffness = [800.0, 800.0]\ndamping = { ratio = 0.0 }";
     let text = format!("name = \"A\"\n[inputs]\nfloor_forces = true\n[left]\n{storeys}\n[right]\n{storeys}");
     let mut run = Run::new(&scene(&text), None);
-    run.state.set_floor_force_rate(Side::Right, 1, 30.0);
+    run.state.set_floor_force_rate(BuildingId::RIGHT, 1, 30.0);
     run.in_steps(0.17, 1.7);
     let g = 0.5 * (1.0 + 5.0_f64.sqrt());
     let mode = |w2: f64, shape: [f64; 2]| {
@@ -83,8 +83,8 @@ fn a_ramp_on_one_floor_moves_all_modes() {
     };
     let (low, high) = (mode(400.0 * (2.0 - g), [1.0, g]), mode(400.0 * (g + 1.0), [g, -1.0]));
     for floor in 0..2 {
-        assert_close(run.displacement(Side::Right, floor), low[floor] + high[floor], 1e-13, "displacement");
-        assert_eq!(run.displacement(Side::Left, floor), 0.0);
+        assert_close(run.displacement(BuildingId::RIGHT, floor), low[floor] + high[floor], 1e-13, "displacement");
+        assert_eq!(run.displacement(BuildingId::LEFT, floor), 0.0);
     }
 }
 
@@ -98,7 +98,7 @@ fn a_ramp_in_contact_is_exact() {
         for step in [0.0007, 0.4] {
             let mut run = Run::new(&bodies((m1, 1e-20), (m2, 1e-20), &text), None);
             let (f, r, t) = (6.0, 11.0, 0.4);
-            ramp(&mut run, Side::Left, f, r);
+            ramp(&mut run, BuildingId::LEFT, f, r);
             run.in_steps(step, t);
             let m = m1 * m2 / (m1 + m2);
             // d'' + c/m d' + k/m d = (f + r t) / m1: a ramp p + s t with what is left over swinging and dying.
@@ -113,8 +113,8 @@ fn a_ramp_in_contact_is_exact() {
             let contact = run.contact(0);
             assert!(contact.active && contact.impacts == 1, "{law}: {contact:?}");
             assert_close(contact.penetration, d, 2e-12, law);
-            assert_close(run.displacement(Side::Left, 0), centre + m / m1 * d, 1e-12, law);
-            assert_close(run.displacement(Side::Right, 0), centre - m / m2 * d, 1e-12, law);
+            assert_close(run.displacement(BuildingId::LEFT, 0), centre + m / m1 * d, 1e-12, law);
+            assert_close(run.displacement(BuildingId::RIGHT, 0), centre - m / m2 * d, 1e-12, law);
             let energy = run.energy();
             assert!(energy.residual.abs() < 1e-12, "{law}: {energy:?}");
         }
@@ -128,7 +128,7 @@ fn rigid_floors_part_when_a_falling_force_says() {
     let text = contact(0.0, "law = \"stereomechanical\"\nrestitution = 0.3");
     for step in [0.05, 0.7, 3.0] {
         let mut run = Run::new(&bodies((m1, 1e-20), (m2, 1e-20), &text), None);
-        ramp(&mut run, Side::Left, f, r);
+        ramp(&mut run, BuildingId::LEFT, f, r);
         run.to(0.5);
         assert_close(run.contact(0).force, m2 / (m1 + m2) * (f + r * 0.5), 1e-13, "reaction");
         run.in_steps(step, 3.0);
@@ -137,8 +137,8 @@ fn rigid_floors_part_when_a_falling_force_says() {
         assert_close(run.episodes[0].impulse, m2 / (m1 + m2) * 4.0, 1e-13, "impulse");
         // Together until 2 s; then the left one goes on under its force alone.
         let (x, v) = (16.0 / 3.0 / (m1 + m2), 4.0 / (m1 + m2));
-        assert_close(run.displacement(Side::Right, 0), x + v, 1e-13, "right");
-        assert_close(run.displacement(Side::Left, 0), x + v + r / 6.0 / m1, 1e-13, "left");
+        assert_close(run.displacement(BuildingId::RIGHT, 0), x + v, 1e-13, "right");
+        assert_close(run.displacement(BuildingId::LEFT, 0), x + v + r / 6.0 / m1, 1e-13, "left");
         assert!(run.energy().residual.abs() < 1e-13);
     }
 }
@@ -148,9 +148,9 @@ fn rigid_floors_part_when_a_falling_force_says() {
 fn floors_that_are_let_go_at_a_jump_are_pressed_together_again() {
     let text = contact(0.0, "law = \"stereomechanical\"\nrestitution = 0.0");
     let mut run = Run::new(&bodies((3.0, 1e-20), (5.0, 1e-20), &text), None);
-    ramp(&mut run, Side::Left, 4.0, -2.0);
+    ramp(&mut run, BuildingId::LEFT, 4.0, -2.0);
     run.to(2.0);
-    run.state.set_floor_force(Side::Left, 0, 8.0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 8.0);
     for k in 1..=10 {
         run.to(2.0 + 0.1 * f64::from(k));
         let contact = run.contact(0);
@@ -177,7 +177,7 @@ fn a_short_touch_under_a_ramp_is_found_and_a_miss_is_none() {
             let scene = scene(&format!("name = \"T\"\n[inputs]\nfloor_forces = true\n{right}\n{text}"));
             for step in [0.3, 0.6, 0.9] {
                 let mut run = Run::new(&scene, None);
-                ramp(&mut run, Side::Left, 0.0, -a * v * W * W);
+                ramp(&mut run, BuildingId::LEFT, 0.0, -a * v * W * W);
                 run.to(step * 0.6);
                 assert_eq!(run.point.impacts, u64::from(depth > 0.0), "fall {fall}, depth {depth:e}, step {step}");
             }
@@ -194,9 +194,9 @@ fn a_touch_that_only_the_ramp_brings_about_is_found() {
     for depth in [0.5 * size, 1e-9, -1e-9] {
         let text = contact(size - depth, "law = \"linear\"\nstiffness = 1.0e6");
         let mut scene = bodies((1.0, W * W), (1e3, 1e-20), &text);
-        scene.right.initial_velocity = vec![r / (W * W)];
+        scene.buildings[1].initial_velocity = vec![r / (W * W)];
         let mut run = Run::new(&scene, None);
-        run.state.set_floor_force_rate(Side::Left, 0, r);
+        run.state.set_floor_force_rate(BuildingId::LEFT, 0, r);
         run.to(1.5);
         assert_eq!(run.point.impacts > 0, depth > 0.0, "depth {depth:e}");
     }
@@ -232,7 +232,8 @@ const LAWS: [&str; 8] = [
 
 /// What both buildings show, and how hard they have met.
 fn shown(run: &Run) -> Vec<f64> {
-    let floors = [Side::Left, Side::Right].map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)));
+    let floors =
+        [BuildingId::LEFT, BuildingId::RIGHT].map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)));
     let floors = floors.into_iter().flatten();
     floors.map(|(side, floor)| run.displacement(side, floor)).collect()
 }
@@ -292,7 +293,7 @@ fn linear_forces_in_proportion_to_the_masses_are_a_moving_ground() {
             let driven = frames(law, damping, "[inputs]\nfloor_forces = true");
             let mut runs = (Run::new(&inside, Some(&record)), Run::new(&driven, None));
             let set = |run: &mut Run, acceleration: f64, rate: f64| {
-                for (side, floors) in [(Side::Left, 2), (Side::Right, 3)] {
+                for (side, floors) in [(BuildingId::LEFT, 2), (BuildingId::RIGHT, 3)] {
                     for floor in 0..floors {
                         run.state.set_floor_force(side, floor, -3.65 * acceleration);
                         run.state.set_floor_force_rate(side, floor, -3.65 * rate);
@@ -320,7 +321,7 @@ fn linear_forces_add_to_a_record() {
     driven.ground.record = Some("r.csv".into());
     let mut runs = (Run::new(&inside, Some(&record)), Run::new(&driven, Some(&halved)));
     let set = |run: &mut Run, acceleration: f64, rate: f64| {
-        for (side, floors) in [(Side::Left, 2), (Side::Right, 3)] {
+        for (side, floors) in [(BuildingId::LEFT, 2), (BuildingId::RIGHT, 3)] {
             for floor in 0..floors {
                 run.state.set_floor_force(side, floor, -0.5 * 3.65 * acceleration);
                 run.state.set_floor_force_rate(side, floor, -0.5 * 3.65 * rate);
@@ -351,7 +352,7 @@ fn linear_forces_on_tall_buildings() {
     inside.ground.record = Some("r.csv".into());
     let mut runs = (Run::new(&inside, Some(&record)), Run::new(&towers("[inputs]\nfloor_forces = true"), None));
     let set = |run: &mut Run, acceleration: f64, rate: f64| {
-        for (side, floors) in [(Side::Left, 10), (Side::Right, 9)] {
+        for (side, floors) in [(BuildingId::LEFT, 10), (BuildingId::RIGHT, 9)] {
             for floor in 0..floors {
                 run.state.set_floor_force(side, floor, -25e3 * acceleration);
                 run.state.set_floor_force_rate(side, floor, -25e3 * rate);
@@ -365,7 +366,7 @@ fn linear_forces_on_tall_buildings() {
 #[test]
 fn a_slope_beyond_all_numbers_is_reported() {
     let mut run = Run::new(&bodies((1.0, W * W), (1e3, 1e7), ""), None);
-    ramp(&mut run, Side::Left, 0.0, 1e308);
+    ramp(&mut run, BuildingId::LEFT, 0.0, 1e308);
     let error = run.model.advance(&mut run.state, 100.0, &mut |_| ()).unwrap_err();
     assert!(error.to_string().contains("exceeds what double precision can hold"), "{error}");
 }

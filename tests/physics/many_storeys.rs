@@ -2,7 +2,7 @@
 
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, record, scene};
-use pounding::engine::{PeakOf, Side};
+use pounding::engine::{BuildingId, PeakOf};
 use pounding::record::Record;
 use pounding::scene::{Scene, Stiffness};
 
@@ -38,7 +38,7 @@ fn penetrations_are_those_of_the_floors_where_pairs_share_one() {
             for (contact, pair) in run.contacts().iter().zip(&scene.contacts).filter(|(contact, _)| contact.active) {
                 let of_floors: f64 = pair
                     .row(&scene)
-                    .map(|share| share.weight * run.displacement(share.side, share.place.floor().unwrap()))
+                    .map(|share| share.weight * run.displacement(share.building, share.place.floor().unwrap()))
                     .sum();
                 let gap = of_floors - pair.gap;
                 let error = (contact.penetration - gap).abs();
@@ -59,7 +59,7 @@ fn forces_on_floors_do_their_work_in_contact() {
     let (mut work, mut closed) = (0.0_f64, 0);
     for k in 1..=600 {
         let force = if k % 7 < 3 { 3e5 } else { -2e5 };
-        run.state.set_floor_force(Side::Left, 7, force);
+        run.state.set_floor_force(BuildingId::LEFT, 7, force);
         run.to(0.01 * f64::from(k));
         let energy = run.energy();
         assert!(energy.residual.abs() < 1e-13, "t = {} s: residual {:e}", 0.01 * f64::from(k), energy.residual);
@@ -79,8 +79,8 @@ fn peak_drifts_see_what_happens_in_contact() {
         run.to(f64::from(k) * 2e-4);
         let active = run.contacts().iter().any(|contact| contact.active);
         for (floor, largest) in largest.iter_mut().enumerate() {
-            let below = if floor == 0 { 0.0 } else { run.displacement(Side::Left, floor - 1) };
-            let drift = (run.displacement(Side::Left, floor) - below).abs();
+            let below = if floor == 0 { 0.0 } else { run.displacement(BuildingId::LEFT, floor - 1) };
+            let drift = (run.displacement(BuildingId::LEFT, floor) - below).abs();
             if drift > largest.0 {
                 *largest = (drift, active);
             }
@@ -88,7 +88,7 @@ fn peak_drifts_see_what_happens_in_contact() {
     }
     assert!(largest.iter().any(|(_, active)| *active), "no storey drifts most in contact");
     for (floor, (drift, _)) in largest.iter().enumerate() {
-        let peak = run.peak(PeakOf::Drift(Side::Left, floor));
+        let peak = run.peak(PeakOf::Drift(BuildingId::LEFT, floor));
         assert!(
             peak >= (1.0 - 1e-13) * drift && peak <= (1.0 + 1e-6) * drift,
             "storey {floor}: {peak} instead of {drift}"
@@ -114,7 +114,7 @@ fn floors_go_where_their_modes_go() {
     for contacts in cases {
         let (scene, record) = towers(&contacts, "[solver]\nrelative_tolerance = 1e-11");
         let mut by_modes = scene.clone();
-        for building in [&mut by_modes.left, &mut by_modes.right] {
+        for building in &mut by_modes.buildings {
             let Stiffness::Shear(storeys) = &building.stiffness else { panic!("a shear building") };
             let entry = |i: usize, j: usize| match i.abs_diff(j) {
                 0 => storeys[i] + storeys.get(i + 1).unwrap_or(&0.0),
@@ -130,7 +130,7 @@ fn floors_go_where_their_modes_go() {
             let time = 0.01 * f64::from(k);
             floors.to(time);
             modes.to(time);
-            for (side, storeys) in [(Side::Left, 9), (Side::Right, 8)] {
+            for (side, storeys) in [(BuildingId::LEFT, 9), (BuildingId::RIGHT, 8)] {
                 for floor in 0..storeys {
                     let (u, expected) = (floors.displacement(side, floor), modes.displacement(side, floor));
                     largest = largest.max(expected.abs());

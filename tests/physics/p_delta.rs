@@ -1,7 +1,7 @@
 //! Gravity on storeys that lean (P-delta), by closed forms: elastic, turned before they fall, falling.
 
 use crate::common::{Run, assert_close, scene};
-use pounding::engine::{Output, PeakOf, Side, YieldingOf};
+use pounding::engine::{BuildingId, Output, PeakOf, YieldingOf};
 use pounding::scene::Scene;
 
 /// A mass alone on a storey that leans and yields, undamped, with a speed at its rest position.
@@ -143,7 +143,7 @@ fn a_share_of_all_stiffnesses_makes_slower_and_changes_no_shape() {
             let mut leaning = Run::new(&scene(&text(stiffness, theta, slower)), None);
             // What a share that is left of a stiffness is rounded by.
             let allowed = 1e-13 / (1.0 - theta);
-            let frequencies = [&plain, &leaning].map(|run| run.model.natural_frequencies(Side::Left).to_vec());
+            let frequencies = [&plain, &leaning].map(|run| run.model.natural_frequencies(BuildingId::LEFT).to_vec());
             for (without, with) in frequencies[0].iter().zip(&frequencies[1]) {
                 assert_close(*with, without * slower, allowed, "frequency");
             }
@@ -151,7 +151,7 @@ fn a_share_of_all_stiffnesses_makes_slower_and_changes_no_shape() {
                 plain.to(0.1 * f64::from(k));
                 leaning.to(0.1 * f64::from(k) / slower);
                 for floor in 0..3 {
-                    let [expected, got] = [&plain, &leaning].map(|run| run.displacement(Side::Left, floor));
+                    let [expected, got] = [&plain, &leaning].map(|run| run.displacement(BuildingId::LEFT, floor));
                     // 60 radians on the way.
                     assert!(
                         (got - expected).abs() < 100.0 * allowed * 0.01,
@@ -190,12 +190,12 @@ fn assert_turns(one: &Leaning, share: f64, sign: f64, run: &mut Run) {
     };
     for k in 0..200 {
         run.to(turn + (f64::from(k) + 0.3) * 2.0 * std::f64::consts::PI / w);
-        let shown = run.storey(Side::Left, 0);
+        let shown = run.storey(BuildingId::LEFT, 0);
         let phase = w * (run.state.time() - turn);
         near(shown.plastic, sign * plastic, limit + plastic, "plastic drift");
         near(shown.residual, sign * residual, limit + plastic, "residual drift");
         let drift = residual + amplitude * phase.cos();
-        near(run.displacement(Side::Left, 0), sign * drift, limit + plastic, "drift");
+        near(run.displacement(BuildingId::LEFT, 0), sign * drift, limit + plastic, "drift");
         // The columns resist with r k drift + (1 - r) k (drift - p).
         let shear = sign * one.stiffness * (drift - (1.0 - one.ratio) * plastic);
         near(shown.shear, shear, one.stiffness * (limit + plastic), "shear");
@@ -203,9 +203,9 @@ fn assert_turns(one: &Leaning, share: f64, sign: f64, run: &mut Run) {
         assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
     }
     let largest = limit + plastic;
-    near(run.storey(Side::Left, 0).ductility * limit, largest, largest, "ductility");
-    near(run.peak(PeakOf::Displacement(Side::Left, 0)), largest, largest, "peak displacement");
-    let index = run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, Side::Left, 0));
+    near(run.storey(BuildingId::LEFT, 0).ductility * limit, largest, largest, "ductility");
+    near(run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)), largest, largest, "peak displacement");
+    let index = run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, BuildingId::LEFT, 0));
     near(index * one.critical(), largest, largest, "stability index");
     assert!(run.model.collapse(&run.state).is_none(), "{what}");
 }
@@ -224,19 +224,19 @@ fn a_storey_falls() {
                 run.to(t1 + seconds);
                 let (drift, _) = one.falling(seconds);
                 // An error of the share grows with the exponential, as the drift does beyond the critical one.
-                let error = (run.displacement(Side::Left, 0) - drift).abs() / (drift.abs() + one.critical());
+                let error = (run.displacement(BuildingId::LEFT, 0) - drift).abs() / (drift.abs() + one.critical());
                 assert!(error < allowed, "{what}, {seconds} s: off by {error:.1e}");
             }
             run.to(end + 1.0);
             let collapse = run.model.collapse(&run.state).unwrap();
             let error = (collapse.time - end).abs() * one.rate();
             assert!(error < allowed, "{what}: falls at {} s, not {end}: {error:.1e}", collapse.time);
-            assert_close(run.displacement(Side::Left, 0), one.collapse, 1e-14, &what);
-            assert_close(run.storey(Side::Left, 0).ductility, one.collapse / one.limit(), 1e-14, &what);
-            let index = run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, Side::Left, 0));
+            assert_close(run.displacement(BuildingId::LEFT, 0), one.collapse, 1e-14, &what);
+            assert_close(run.storey(BuildingId::LEFT, 0).ductility, one.collapse / one.limit(), 1e-14, &what);
+            let index = run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, BuildingId::LEFT, 0));
             assert_close(index, one.collapse / one.critical(), 1e-13, &what);
             let shear = one.force + one.ratio * one.stiffness * (one.collapse - one.limit());
-            assert_close(run.storey(Side::Left, 0).shear, shear, 1e-13, &what);
+            assert_close(run.storey(BuildingId::LEFT, 0).shear, shear, 1e-13, &what);
             assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
             let given = -0.5 * one.load / one.height * one.collapse * one.collapse;
             assert_close(run.energy().gravity, given, 1e-13, &what);
@@ -257,10 +257,10 @@ fn gravity_as_strong_as_the_hardening_makes_a_parabola() {
         for k in 0..100 {
             run.to(turn + f64::from(k));
             let size = one.limit() + plastic;
-            let error = (run.storey(Side::Left, 0).plastic - plastic).abs() / size;
+            let error = (run.storey(BuildingId::LEFT, 0).plastic - plastic).abs() / size;
             assert!(error < 1e-12, "theta {theta}: plastic drift off by {error:.1e}");
             let expected = plastic + one.limit() * (one.w() * f64::from(k)).cos();
-            let error = (run.displacement(Side::Left, 0) - expected).abs() / size;
+            let error = (run.displacement(BuildingId::LEFT, 0) - expected).abs() / size;
             assert!(error < 1e-11, "theta {theta}, {k} s: off by {error:.1e}");
         }
         assert!(run.energy().residual.abs() < 1e-12);
@@ -277,7 +277,7 @@ fn gravity_of_every_strength() {
     let turn = one.yields().0 + f64::atanh(share) / one.rate();
     run.to(turn + 10.0);
     let plastic = one.reach() * (1.0 - f64::sqrt(1.0 - share * share));
-    assert_close(run.storey(Side::Left, 0).plastic, plastic, 1e-11, "plastic drift");
+    assert_close(run.storey(BuildingId::LEFT, 0).plastic, plastic, 1e-11, "plastic drift");
     let one = one.with_share(1.5);
     let mut run = one.run();
     run.to(100.0);
@@ -289,7 +289,7 @@ fn gravity_of_every_strength() {
     let mut run = one.run();
     run.to(20.0);
     let (_, v1) = one.yields();
-    assert_close(run.storey(Side::Left, 0).plastic, 0.5 * one.mass * v1 * v1 / one.force, 1e-10, "plastic drift");
+    assert_close(run.storey(BuildingId::LEFT, 0).plastic, 0.5 * one.mass * v1 * v1 / one.force, 1e-10, "plastic drift");
 }
 
 /// Two storeys that yield together, with the same stiffness below 0 afterwards, move as one; a small difference between them
@@ -321,7 +321,7 @@ fn two_storeys_that_yield_together() {
         let mut run = Run::new(&scene(&text(weaker)), None);
         run.to(until + 0.5);
         assert!(run.energy().residual.abs() < 1e-12);
-        [0, 1].map(|storey| run.storey(Side::Left, storey).plastic)
+        [0, 1].map(|storey| run.storey(BuildingId::LEFT, storey).plastic)
     };
     let expected = one.reach() * (1.0 - f64::sqrt(1.0 - share * share));
     let like = plastic(1.0);

@@ -4,7 +4,7 @@ use crate::common::peaks::Watch;
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, assert_close, record, scene};
 use crate::p_delta::Leaning;
-use pounding::engine::{Collapse, Output, PeakOf, Side, YieldingOf};
+use pounding::engine::{BuildingId, Collapse, Output, PeakOf, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -62,16 +62,16 @@ fn the_energy_account_closes_through_a_fall() {
         let end = collapse(&run);
         let given: f64 = (0..2)
             .map(|storey| {
-                let below = if storey == 0 { 0.0 } else { run.displacement(Side::Left, 0) };
-                let drift = run.displacement(Side::Left, storey) - below;
+                let below = if storey == 0 { 0.0 } else { run.displacement(BuildingId::LEFT, 0) };
+                let drift = run.displacement(BuildingId::LEFT, storey) - below;
                 0.5 * [2.8e6 / 3.5, 1.6e6 / 3.0][storey] * drift * drift
             })
             .sum();
-        let right = scene.right.gravity_stiffness();
-        let (one, two) = (run.displacement(Side::Right, 0), run.displacement(Side::Right, 1));
+        let right = scene.buildings[1].gravity_stiffness();
+        let (one, two) = (run.displacement(BuildingId::RIGHT, 0), run.displacement(BuildingId::RIGHT, 1));
         let given = given + 0.5 * (right[0] * one * one + right[1] * (two - one) * (two - one));
         assert_close(run.energy().gravity, -given, 1e-12, "energy of gravity");
-        assert_eq!(end.side, Side::Left);
+        assert_eq!(end.building, BuildingId::LEFT);
         assert!(given > 1e5, "{given:e} J at {} s", end.time);
     }
 }
@@ -82,11 +82,11 @@ fn the_run_ends_where_a_storey_has_collapsed() {
     let mut run = falling().run();
     run.to(20.0);
     let end = collapse(&run);
-    assert_eq!((end.side, end.storey, run.state.time()), (Side::Left, 0, end.time));
-    assert_eq!(run.read(Output::Collapsed(Side::Left)), 1.0);
-    assert_eq!(run.read(Output::CollapseTime(Side::Left)), end.time);
-    assert_eq!(run.read(Output::Collapsed(Side::Right)), 0.0);
-    assert_eq!(run.read(Output::CollapseTime(Side::Right)), -1.0);
+    assert_eq!((end.building, end.storey, run.state.time()), (BuildingId::LEFT, 0, end.time));
+    assert_eq!(run.read(Output::Collapsed(BuildingId::LEFT)), 1.0);
+    assert_eq!(run.read(Output::CollapseTime(BuildingId::LEFT)), end.time);
+    assert_eq!(run.read(Output::Collapsed(BuildingId::RIGHT)), 0.0);
+    assert_eq!(run.read(Output::CollapseTime(BuildingId::RIGHT)), -1.0);
     let bits = seen(&run);
     for time in [end.time, 20.0, 20.0 + 1e-9, 1e6] {
         assert!(seen(run.to(time)) == bits, "to {time} s");
@@ -118,7 +118,7 @@ fn a_fall_at_a_communication_point_or_a_sample() {
         let mut run = Run::new(&scene, Some(&record));
         run.to(20.0);
         assert!((collapse(&run).time - end).abs() < 1e-14, "a sample at {sample} s: {:?}, not {end}", collapse(&run));
-        assert_close(run.displacement(Side::Left, 0), one.collapse, 1e-14, "drift");
+        assert_close(run.displacement(BuildingId::LEFT, 0), one.collapse, 1e-14, "drift");
     }
 }
 
@@ -130,11 +130,11 @@ fn a_fall_in_the_first_step() {
             let one = Leaning { speed: sign * 0.5, ..Leaning::new(0.25, 0.0) };
             let start = sign * if before > 0.0 { one.collapse - before } else { one.collapse.next_down() };
             let mut scene = one.scene("");
-            scene.left.initial_displacement = vec![start];
+            scene.buildings[0].initial_displacement = vec![start];
             let mut run = Run::new(&scene, None);
             run.to(1e-3);
             assert!((collapse(&run).time - before / 0.5).abs() < 2e-15, "{before} m: {:?}", collapse(&run));
-            assert_close(run.displacement(Side::Left, 0), sign * one.collapse, 1e-14, "drift");
+            assert_close(run.displacement(BuildingId::LEFT, 0), sign * one.collapse, 1e-14, "drift");
         }
     }
 }
@@ -164,9 +164,9 @@ fn a_fall_under_a_force_of_the_master() {
     let one = Leaning::new(0.25, 0.0);
     let end = |step: f64| {
         let mut run = Run::new(&one.scene("[inputs]\nfloor_forces = true\n"), None);
-        run.state.set_floor_force(Side::Left, 0, -5e4);
+        run.state.set_floor_force(BuildingId::LEFT, 0, -5e4);
         run.in_steps(step, 20.0);
-        assert_close(run.displacement(Side::Left, 0), -one.collapse, 1e-14, "drift");
+        assert_close(run.displacement(BuildingId::LEFT, 0), -one.collapse, 1e-14, "drift");
         assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
         collapse(&run).time
     };
@@ -191,16 +191,16 @@ fn a_neighbour_pushes_back_what_would_fall() {
         let phase = 0.1 * f64::from(k);
         run.to(meets + phase / w);
         let expected = rest + (drift - rest) * phase.cos() - speed / w * phase.sin();
-        let error = (run.displacement(Side::Left, 0) - expected).abs() / drift;
+        let error = (run.displacement(BuildingId::LEFT, 0) - expected).abs() / drift;
         assert!(expected > drift - 2.0 * one.limit(), "it yields the other way at {expected} m");
         assert!(error < 1e-12, "{k}: {expected:e} m, off by {error:.1e}");
     }
-    assert!(run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, Side::Left, 0)) > 1.049);
-    assert_eq!(run.storey(Side::Left, 0).residual, one.critical());
-    assert!(run.displacement(Side::Left, 0) < one.critical());
+    assert!(run.read(Output::OfYielding(YieldingOf::PeakStabilityIndex, BuildingId::LEFT, 0)) > 1.049);
+    assert_eq!(run.storey(BuildingId::LEFT, 0).residual, one.critical());
+    assert!(run.displacement(BuildingId::LEFT, 0) < one.critical());
     run.to(20.0);
     assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
-    assert!(run.peak(PeakOf::Displacement(Side::Left, 0)) >= drift);
+    assert!(run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)) >= drift);
 }
 
 /// No reading is beyond a peak while a storey falls, and the peaks at the end are those of the fall.
@@ -213,7 +213,7 @@ fn peaks_are_true_while_a_storey_falls() {
             run.to(run.state.time() + 1.7e-3);
             watch.look(&run).unwrap_or_else(|wrong| panic!("{wrong}"));
         }
-        let Collapse { side, storey, .. } = collapse(&run);
+        let Collapse { building: side, storey, .. } = collapse(&run);
         let drift = scene.building(side).collapse_drift(storey).unwrap();
         assert_close(run.peak(PeakOf::Drift(side, storey)), drift, 1e-10, "peak drift");
         let of = scene.building(side).net_storey(storey).unwrap();
@@ -232,7 +232,7 @@ fn the_limit_of_the_scene_decides() {
         let one = Leaning { collapse: collapse_at, ..one };
         let mut run = one.run();
         run.to(20.0);
-        assert_close(run.displacement(Side::Left, 0), collapse_at, 1e-14, "drift");
+        assert_close(run.displacement(BuildingId::LEFT, 0), collapse_at, 1e-14, "drift");
         let error = (collapse(&run).time - one.reaches(collapse_at)).abs() * one.rate();
         assert!(error < 1e-12, "{collapse_at} m: {:?}, off by {error:.1e}", collapse(&run));
     }

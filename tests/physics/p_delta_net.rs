@@ -3,7 +3,7 @@
 use crate::common::problems::frames::zigzag;
 use crate::common::problems::laws::Laws;
 use crate::common::{Run, record, scene};
-use pounding::engine::{PeakOf, Side};
+use pounding::engine::{BuildingId, PeakOf};
 
 /// Draws numbers between two others (linear congruential generator).
 struct Draw(u64);
@@ -76,7 +76,7 @@ fn smaller_stiffnesses_and_yield_forces_stand_for_gravity() {
 /// impulses of contacts.
 fn apart(with: &Run, without: &Run) -> f64 {
     let mut worst = 0.0_f64;
-    for side in [Side::Left, Side::Right] {
+    for side in [BuildingId::LEFT, BuildingId::RIGHT] {
         let floors = with.model.floors(side);
         let size = (0..floors).map(|floor| with.peak(PeakOf::Displacement(side, floor))).fold(0.0, f64::max);
         for floor in 0..floors {

@@ -1,14 +1,14 @@
 //! Peaks in continuous time: against closed forms, against ever denser readings of the same run, at any communication steps.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{Input, LinearInput, Output, PeakOf, Side, YieldingOf};
+use pounding::engine::{BuildingId, Input, LinearInput, Output, PeakOf, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
 /// All peaks of a model, with what they are.
 fn all_of(run: &Run) -> Vec<PeakOf> {
-    let of_side = |side: Side| {
+    let of_side = |side: BuildingId| {
         let floors = 0..run.model.floors(side);
         let is_corrected = run.state.inputs().get(Input::Correction(side, 0)) != LinearInput::default();
         let corrected =
@@ -18,7 +18,7 @@ fn all_of(run: &Run) -> Vec<PeakOf> {
         };
         floors.flat_map(of_floor).chain([PeakOf::BaseShear(side)]).chain(corrected)
     };
-    [Side::Left, Side::Right].into_iter().flat_map(of_side).collect()
+    [BuildingId::LEFT, BuildingId::RIGHT].into_iter().flat_map(of_side).collect()
 }
 
 fn peaks(run: &Run) -> Vec<f64> {
@@ -42,7 +42,7 @@ fn now(run: &Run) -> Vec<f64> {
 /// A run at its start; what can be corrected is, by lines that no motion follows.
 fn begin(scene: &Scene, record: Option<&Record>) -> Run {
     let mut run = Run::new(scene, record);
-    for side in [Side::Left, Side::Right].into_iter().filter(|_| scene.restoring_corrections) {
+    for side in [BuildingId::LEFT, BuildingId::RIGHT].into_iter().filter(|_| scene.restoring_corrections) {
         for storey in 0..run.model.floors(side) {
             let size = 0.3 * scene.building(side).mass[storey] * (1.0 + storey as f64);
             run.state.set_input(Input::Correction(side, storey), size);
@@ -162,11 +162,11 @@ fn free_vibration_has_the_peaks_of_a_textbook() {
             // tan(wd t) = wd / (z w).
             let t = libm::atan2(wd, ratio * w) / wd;
             let u = libm::exp(-ratio * w * t) * libm::sin(wd * t) / wd;
-            assert_close(run.peak(PeakOf::Displacement(Side::Left, 0)), u, 1e-13, "displacement");
-            assert_close(run.peak(PeakOf::Drift(Side::Right, 0)), u, 1e-13, "drift");
+            assert_close(run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)), u, 1e-13, "displacement");
+            assert_close(run.peak(PeakOf::Drift(BuildingId::RIGHT, 0)), u, 1e-13, "drift");
             if ratio == 0.0 {
-                assert_close(run.peak(PeakOf::Acceleration(Side::Left, 0)), w, 1e-13, "acceleration");
-                assert_close(run.peak(PeakOf::BaseShear(Side::Left)), 1000.0 * w, 1e-13, "base shear");
+                assert_close(run.peak(PeakOf::Acceleration(BuildingId::LEFT, 0)), w, 1e-13, "acceleration");
+                assert_close(run.peak(PeakOf::BaseShear(BuildingId::LEFT)), 1000.0 * w, 1e-13, "base shear");
             }
         }
     }
@@ -206,8 +206,8 @@ fn floors_that_are_pressed_at_the_start_have_the_acceleration_of_that() {
     let mut run = Run::new(&scene, None);
     run.to(0.0);
     // u = -0.02 and -0.022 m, pressed together by 2 mm: a = -100 u -+ 1e3 x 2e-3.
-    assert!(run.peak(PeakOf::Acceleration(Side::Left, 0)) < 1e-14);
-    assert_close(run.peak(PeakOf::Acceleration(Side::Right, 0)), 4.2, 1e-14, "right");
+    assert!(run.peak(PeakOf::Acceleration(BuildingId::LEFT, 0)) < 1e-14);
+    assert_close(run.peak(PeakOf::Acceleration(BuildingId::RIGHT, 0)), 4.2, 1e-14, "right");
 }
 
 /// The acceleration turns within a short ramp of the record, beside a building whose damping couples modes.
@@ -226,9 +226,9 @@ fn a_ramp_of_any_length_has_the_peaks_of_its_readings() {
         let mut largest = 0.0_f64;
         for k in 0..=2000 {
             run.to(start + length * f64::from(k) / 2000.0);
-            largest = largest.max(run.read(Output::Acceleration(Side::Left, 0)).abs());
+            largest = largest.max(run.read(Output::Acceleration(BuildingId::LEFT, 0)).abs());
         }
-        let peak = run.peak(PeakOf::Acceleration(Side::Left, 0));
+        let peak = run.peak(PeakOf::Acceleration(BuildingId::LEFT, 0));
         assert!((peak - largest).abs() <= 2e-11 * largest, "{length:e} s: {peak}, not {largest}");
     }
 }
@@ -362,25 +362,25 @@ fn peaks_see_both_sides_of_a_jump_of_an_input() {
     let scene = scene(&format!("name = \"F\"\n[left]\n{building}[right]\n{building}[inputs]\nfloor_forces = true\n"));
     let mut run = Run::new(&scene, None);
     run.to(0.0);
-    let acceleration = PeakOf::Acceleration(Side::Left, 0);
-    run.state.set_floor_force(Side::Left, 0, force);
+    let acceleration = PeakOf::Acceleration(BuildingId::LEFT, 0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
     run.model.observe(&run.state, &mut run.point);
     assert_eq!(run.peak(acceleration), 0.0, "nothing has acted yet");
     let short = 0.1;
     run.to(short);
     assert_close(run.peak(acceleration), force / m, 1e-14, "at the start of the step");
     assert_close(
-        run.peak(PeakOf::Displacement(Side::Left, 0)),
+        run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)),
         force / (m * w * w) * (1.0 - libm::cos(w * short)),
         1e-12,
         "u",
     );
-    run.state.set_floor_force(Side::Left, 0, 0.0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 0.0);
     run.to(2.0);
     // Swings freely then with the amplitude 2 F/k sin(w t / 2).
     let amplitude = 2.0 * force / (m * w * w) * libm::sin(0.5 * w * short);
-    assert_close(run.peak(PeakOf::Displacement(Side::Left, 0)), amplitude, 1e-12, "amplitude");
-    assert_close(run.peak(PeakOf::BaseShear(Side::Left)), m * w * w * amplitude, 1e-12, "base shear");
+    assert_close(run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)), amplitude, 1e-12, "amplitude");
+    assert_close(run.peak(PeakOf::BaseShear(BuildingId::LEFT)), m * w * w * amplitude, 1e-12, "base shear");
     assert_close(run.peak(acceleration), f64::max(w * w * amplitude, force / m), 1e-12, "acceleration");
 }
 
@@ -404,7 +404,7 @@ fn no_peak_ever_falls() {
             let forces = run.contacts();
             let mut all = peaks(&run);
             // A drift that is read is a difference of displacements, with their rounding.
-            let moved = run.displacement(Side::Left, 1).abs().max(run.displacement(Side::Right, 2).abs());
+            let moved = run.displacement(BuildingId::LEFT, 1).abs().max(run.displacement(BuildingId::RIGHT, 2).abs());
             for (of, (peak, now)) in all_of(&run).into_iter().zip(all.iter().zip(now(&run))) {
                 let rounding = 1e-13 * peak + if matches!(of, PeakOf::Drift(..)) { 1e-15 * moved } else { 0.0 };
                 assert!(now <= peak + rounding, "{law}, {of:?} at step {k}: {now:e} above {peak:e}");
@@ -504,10 +504,10 @@ fn a_held_force_is_a_part_of_the_acceleration() {
     let building = format!("mass = [{m:?}]\nstiffness = [{:?}]\ndamping = {{ ratio = 0.05 }}\n", m * w * w);
     let scene = scene(&format!("name = \"F\"\n[left]\n{building}[right]\n{building}[inputs]\nfloor_forces = true\n"));
     let mut run = Run::new(&scene, None);
-    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
     for k in 1..=500 {
         run.to(0.005 * f64::from(k));
-        assert_close(run.peak(PeakOf::Acceleration(Side::Left, 0)), force / m, 1e-14, &format!("step {k}"));
+        assert_close(run.peak(PeakOf::Acceleration(BuildingId::LEFT, 0)), force / m, 1e-14, &format!("step {k}"));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{Run, record, scene};
 use nalgebra::{DMatrix, DVector};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::structure::{CoupledIncrement, ModeIncrement};
 
 struct Case {
@@ -122,7 +122,9 @@ fn a_flight_in_pieces_is_that_of_the_matrices() {
             let time = (f64::from(k) + 0.5) * step;
             run.to(time);
             other.to(time);
-            for (side, floor) in [(Side::Left, 0), (Side::Left, 5), (Side::Right, 2), (Side::Right, 5)] {
+            for (side, floor) in
+                [(BuildingId::LEFT, 0), (BuildingId::LEFT, 5), (BuildingId::RIGHT, 2), (BuildingId::RIGHT, 5)]
+            {
                 let [got, exact] = [&run, &other].map(|run| run.displacement(side, floor));
                 largest = largest.max(exact.abs());
                 assert!((got - exact).abs() <= 1e-13 * largest, "{dashpot} at {time} s: {got} instead of {exact}");

@@ -7,7 +7,7 @@ use crate::common::problems::laws::contact;
 use crate::common::{Run, record};
 use crate::random_frames::{Frame, frame};
 use crate::random_soil::{Soil, on_soil, soil};
-use pounding::engine::{FoundationOutput, Output, Side};
+use pounding::engine::{BuildingId, FoundationOutput, Output};
 use pounding::record::Record;
 use pounding::scene::{Place, Scene, Share};
 use proptest::prelude::*;
@@ -119,16 +119,16 @@ fn yielding(text: &str, frames: &[Frame; 2], yields: &[Option<(f64, f64)>]) -> S
 const ROUNDING: f64 = 1e-14;
 
 /// Sum of the magnitudes of the displacements of a building, from the foundation to the roof, m.
-fn moved(run: &Run, side: Side) -> f64 {
+fn moved(run: &Run, side: BuildingId) -> f64 {
     let floors: f64 = (0..run.model.floors(side)).map(|floor| run.displacement(side, floor).abs()).sum();
     let [sway, rotation] = [FoundationOutput::Displacement, FoundationOutput::Rotation]
         .map(|of| run.read(Output::Foundation(side, of)).abs());
-    floors + sway + rotation * run.leaning[side as usize].iter().sum::<f64>()
+    floors + sway + rotation * run.leaning[side.index()].iter().sum::<f64>()
 }
 
 /// What storeys that yield never do: leave their lines, give energy back. Returns what they have dissipated.
 fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Result<(), TestCaseError> {
-    let moved = [Side::Left, Side::Right].map(|side| moved(run, side));
+    let moved = [BuildingId::LEFT, BuildingId::RIGHT].map(|side| moved(run, side));
     let plastic: f64 = run.storeys().iter().map(|storey| storey.plastic.abs()).sum();
     for ((&(side, i), now), last) in run.yielding.iter().zip(run.storeys()).zip(last) {
         let building = scene.building(side);
@@ -136,7 +136,7 @@ fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Resu
         let stiffness = building.stiffness.of_storey(i).unwrap();
         let drift = run.drift(side, i);
         let limit = force / stiffness;
-        let rounding = ROUNDING * (limit + moved[side as usize] + plastic);
+        let rounding = ROUNDING * (limit + moved[side.index()] + plastic);
         let z = drift - now.plastic;
         prop_assert!(z.abs() <= limit + rounding, "{side:?} {i}: z = {z:e} beyond {limit:e}\n{text}");
         let is_at = (z - f64::from(now.sense) * limit).abs() <= rounding;
@@ -155,9 +155,9 @@ fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Resu
 /// Of what has a share in a contact: a floor, or a foundation that sways, m, or rocks, rad.
 fn displacement(run: &Run, share: &Share) -> f64 {
     match share.place {
-        Place::Floor(floor) => run.displacement(share.side, floor),
-        Place::Foundation => run.read(Output::Foundation(share.side, FoundationOutput::Displacement)),
-        Place::Rotation => run.read(Output::Foundation(share.side, FoundationOutput::Rotation)),
+        Place::Floor(floor) => run.displacement(share.building, floor),
+        Place::Foundation => run.read(Output::Foundation(share.building, FoundationOutput::Displacement)),
+        Place::Rotation => run.read(Output::Foundation(share.building, FoundationOutput::Rotation)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{Run, record, scene};
 use pounding::engine::{
-    ContactOutput as C, ContactRates, EnergyOutput as E, Input, Output, PointRates, Rates, Side, YieldingOf,
+    BuildingId, ContactOutput as C, ContactRates, EnergyOutput as E, Input, Output, PointRates, Rates, YieldingOf,
 };
 use pounding::scene::{self, Scene, Stiffness};
 use std::path::Path;
@@ -12,7 +12,7 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(Output, f64, Rates)> {
     let now = run.model.observe(&run.state, &mut run.point);
     now.differentiate(rates);
     let mut outputs = vec![Output::GroundAcceleration];
-    for side in [Side::Left, Side::Right] {
+    for side in [BuildingId::LEFT, BuildingId::RIGHT] {
         outputs.push(Output::BaseShear(side));
         let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration];
         outputs.extend((0..run.model.floors(side)).flat_map(|i| of_floor.map(|output| output(side, i))));
@@ -111,10 +111,10 @@ fn they_tell_what_corrections_do_next() {
     let mut storeys = frames("law = \"kelvin_voigt\"\nstiffness = 1.0e8\nrestitution = 0.5", 2);
     storeys.restoring_corrections = true;
     let mut matrix = storeys.clone();
-    matrix.left.stiffness = Stiffness::Matrix(vec![vec![6.92e7, -3.46e7], vec![-3.46e7, 3.46e7]]);
+    matrix.buildings[0].stiffness = Stiffness::Matrix(vec![vec![6.92e7, -3.46e7], vec![-3.46e7, 3.46e7]]);
     for scene in [storeys, matrix] {
         let mut run = Run::new(&scene, Some(&record));
-        for (i, side) in [(0, Side::Left), (1, Side::Left), (1, Side::Right)] {
+        for (i, side) in [(0, BuildingId::LEFT), (1, BuildingId::LEFT), (1, BuildingId::RIGHT)] {
             run.state.set_input(Input::Correction(side, i), 2e5);
             run.state.set_input_rate(Input::Correction(side, i), -1.3e5);
         }
@@ -179,7 +179,7 @@ fn what_is_singular_reads_0() {
     for contact in &mut scene.contacts {
         contact.gap = 0.0;
     }
-    scene.left.initial_velocity = vec![0.1, 0.2];
+    scene.buildings[0].initial_velocity = vec![0.1, 0.2];
     let mut run = Run::new(&scene, None);
     let mut rates = PointRates::default();
     for (output, _, [first, second]) in shown(&mut run, &mut rates) {

@@ -5,7 +5,7 @@ use crate::common::peaks::{Watch, all};
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, record, scene};
 use crate::peaks_whenever::Sequence;
-use pounding::engine::{PeakOf, Side};
+use pounding::engine::{BuildingId, PeakOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -207,7 +207,7 @@ fn a_plastic_roof_is_accelerated_by_its_yield_force() {
             let text = PLASTIC_ROOF.replace("0.8, 0.8", &format!("{speed:?}, {speed:?}"));
             let text = format!("{text}exponent = {exponent}\n");
             let mut run = Run::new(&scene(&text), None);
-            let off = run.to(0.5).peak(PeakOf::Acceleration(Side::Left, 1)) / 7.8975 - 1.0;
+            let off = run.to(0.5).peak(PeakOf::Acceleration(BuildingId::LEFT, 1)) / 7.8975 - 1.0;
             assert!(off.abs() < 2e-11, "{speed} m/s, exponent {exponent}: {off:e}");
         }
     }

@@ -1,9 +1,9 @@
 //! Slabs against columns, whose contacts are rows of weights over the floors: by closed forms, and positions that tend to
 //! the ends of a storey.
 
-use crate::common::{Run, assert_close, scene};
+use crate::common::{Run, assert_close, name, other, scene};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ pub fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 /// A single floor meets a two-storey frame, both at rest position, at the start.
 struct Hit {
     /// Of the frame that is hit, whose first floor moves too.
-    frame: Side,
+    frame: BuildingId,
     storey: usize,
     position: f64,
     shape: &'static str,
@@ -40,7 +40,7 @@ const FRAME: ([f64; 2], [f64; 2]) = ([3.0, 2.5], [700.0, 600.0]);
 impl Hit {
     fn cases() -> Vec<Hit> {
         let mut cases = Vec::new();
-        for frame in [Side::Right, Side::Left] {
+        for frame in [BuildingId::RIGHT, BuildingId::LEFT] {
             for storey in [1, 2] {
                 for (position, shape) in [(0.35, "fixed"), (0.8, "fixed"), (0.35, "straight"), (0.8, "straight")] {
                     cases.push(Hit { frame, storey, position, shape });
@@ -52,7 +52,7 @@ impl Hit {
 
     fn scene(&self, law: &str) -> Scene {
         let Hit { storey, position, shape, .. } = self;
-        let frame = self.frame.name();
+        let frame = name(self.frame);
         self.scene_with(
             &format!("{frame}_storey = {storey}\n{frame}_position = {position:?}\ncolumn_shape = \"{shape}\""),
             law,
@@ -62,11 +62,11 @@ impl Hit {
     /// The single floor against what these keys say. Both touch; towards each other is positive: the floor moves at
     /// `SPEED`, the frame's first floor at 0.1 m/s away from it.
     fn scene_with(&self, against: &str, law: &str) -> Scene {
-        let (sign, other) = if self.frame == Side::Right { (1.0, "left") } else { (-1.0, "right") };
-        let frame = self.frame.name();
+        let (sign, other) = if self.frame == BuildingId::RIGHT { (1.0, "left") } else { (-1.0, "right") };
+        let frame = name(self.frame);
         let hit = building(frame, &FRAME.0, &FRAME.1, &[sign * 0.1, 0.0]);
         let hitting = building(other, &[FLOOR.0], &[FLOOR.1], &[sign * SPEED]);
-        let both = if self.frame == Side::Right { hitting + &hit } else { hit + &hitting };
+        let both = if self.frame == BuildingId::RIGHT { hitting + &hit } else { hit + &hitting };
         scene(&format!(
             "name = \"Hit\"\n{both}[outputs]\nenergy = true\n[[contact]]\n{other}_floor = 1\n{against}\n\
              gap = 0.0\n{law}\n"
@@ -89,8 +89,8 @@ impl Hit {
     }
 
     fn state(&self, run: &Run) -> (DVector<f64>, DVector<f64>) {
-        let sign = if self.frame == Side::Right { 1.0 } else { -1.0 };
-        let floors = [(self.frame.opposite(), 0), (self.frame, 0), (self.frame, 1)];
+        let sign = if self.frame == BuildingId::RIGHT { 1.0 } else { -1.0 };
+        let floors = [(other(self.frame), 0), (self.frame, 0), (self.frame, 1)];
         let u = floors.map(|(side, floor)| sign * run.displacement(side, floor));
         let v = floors.map(|(side, floor)| sign * run.velocity(side, floor));
         (DVector::from_row_slice(&u), DVector::from_row_slice(&v))
@@ -257,7 +257,8 @@ fn impulses_of_two_floors_on_the_same_columns() {
         assert_close(episode.separation_velocity, e[k] * approach[k], 1e-14, "separation");
     }
     let after = [0, 1, 2].map(|i| speeds[i] - (rows[0][i] * p[0] + rows[1][i] * p[1]) / masses[i]);
-    let got = [run.velocity(Side::Left, 0), run.velocity(Side::Left, 1), run.velocity(Side::Right, 0)];
+    let got =
+        [run.velocity(BuildingId::LEFT, 0), run.velocity(BuildingId::LEFT, 1), run.velocity(BuildingId::RIGHT, 0)];
     for (got, after) in got.into_iter().zip(after) {
         assert!((got - after).abs() < 1e-15, "{got} instead of {after}");
     }
@@ -285,7 +286,8 @@ fn a_floor_that_is_held_by_columns() {
             )),
             None,
         );
-        let sides = if side == "left" { [Side::Left, Side::Right] } else { [Side::Right, Side::Left] };
+        let sides =
+            if side == "left" { [BuildingId::LEFT, BuildingId::RIGHT] } else { [BuildingId::RIGHT, BuildingId::LEFT] };
         for part in [0.1, 0.4, 0.9] {
             let angle = part * PI / 2.0;
             run.to(angle / w);
@@ -311,8 +313,8 @@ fn a_floor_that_is_held_by_columns() {
 #[test]
 fn positions_at_the_ends_of_a_storey_are_floors_and_the_ground() {
     let (stiffness, law) = (3e4, "law = \"linear\"\nstiffness = 3e4");
-    for frame in [Side::Right, Side::Left] {
-        let name = frame.name();
+    for frame in [BuildingId::RIGHT, BuildingId::LEFT] {
+        let name = name(frame);
         let (floor, wall) = (|floor: usize| format!("{name}_floor = {floor}"), format!("wall = \"{name}\""));
         for (storey, upper_end, limit) in
             [(1, false, wall), (1, true, floor(1)), (2, false, floor(1)), (2, true, floor(2))]

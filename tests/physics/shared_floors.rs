@@ -4,7 +4,7 @@
 use crate::bodies::{Bodies, assert_same, velocities};
 use crate::common::{Run, assert_close};
 use nalgebra::DVector;
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use std::f64::consts::PI;
 
 #[test]
@@ -90,7 +90,7 @@ fn reactions_on_shared_floors_are_the_complementary_ones() {
         for load in loads {
             let mut run = Run::new(&bodies.scene(false), None);
             for (k, force) in load.into_iter().enumerate() {
-                let side = if k < 2 { Side::Left } else { Side::Right };
+                let side = if k < 2 { BuildingId::LEFT } else { BuildingId::RIGHT };
                 run.state.set_floor_force(side, k % 2, force);
             }
             run.to(0.5);
@@ -125,13 +125,13 @@ fn a_reaction_on_a_shared_floor_is_let_go_by_itself() {
         pairs: vec![(0, 0, 0.0, 0.5), (0, 1, 0.0, 0.5)],
     };
     let mut run = Run::new(&bodies.scene(false), None);
-    run.state.set_floor_force(Side::Left, 0, 10.0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 10.0);
     run.to(1.0);
     // All three together: each right floor gets its mass times 10 / 10 m/s2.
     assert_close(run.contact(0).force, r1, 1e-14, "reaction 1");
     assert_close(run.contact(1).force, r2, 1e-14, "reaction 2");
     // R2 is drawn away at 2 m/s2; L pushes R1 alone.
-    run.state.set_floor_force(Side::Right, 1, 2.0 * r2);
+    run.state.set_floor_force(BuildingId::RIGHT, 1, 2.0 * r2);
     run.to(1.5);
     assert_close(run.contact(0).force, 10.0 * r1 / (l + r1), 1e-14, "reaction 1");
     assert_eq!(run.contact(1).force, 0.0);
@@ -165,7 +165,7 @@ fn an_impact_on_a_floor_that_is_held_lets_its_other_pair_go() {
         pairs: vec![(0, 0, 0.0, e), (0, 1, gap, e)],
     };
     let mut run = Run::new(&bodies.scene(false), None);
-    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
     // L and R1 move with a t^2 / 2 until they and R2 have closed the gap.
     let a = force / (l + r1);
     let meet = 2.0 * gap / (1.0 + (1.0 + 2.0 * a * gap).sqrt());
@@ -180,9 +180,9 @@ fn an_impact_on_a_floor_that_is_held_lets_its_other_pair_go() {
     assert!(all.iter().all(|(_, end)| (end - meet).abs() < 1e-16), "{all:?}, {meet}");
     assert_close(run.contact(0).impulse, r1 * a * meet, 1e-13, "impulse of the reaction");
     assert_close(run.contact(1).impulse, impulse, 1e-14, "impulse of the impact");
-    assert_close(run.velocity(Side::Left, 0), a * meet - impulse / l + force / l * later, 1e-13, "thrown back");
-    assert_close(run.velocity(Side::Right, 0), a * meet, 1e-13, "let go");
-    assert_close(run.velocity(Side::Right, 1), impulse / r2 - 1.0, 1e-13, "thrown forward");
+    assert_close(run.velocity(BuildingId::LEFT, 0), a * meet - impulse / l + force / l * later, 1e-13, "thrown back");
+    assert_close(run.velocity(BuildingId::RIGHT, 0), a * meet, 1e-13, "let go");
+    assert_close(run.velocity(BuildingId::RIGHT, 1), impulse / r2 - 1.0, 1e-13, "thrown forward");
     assert!(!run.contact(0).active && run.contact(0).penetration < 0.0);
 }
 
@@ -276,7 +276,7 @@ fn rebounds_of_two_pairs_on_one_floor_are_parabolas() {
         d[p] = 0.0;
     }
     let mut run = Run::new(&bodies.scene(false), None);
-    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
     run.to(time + 1e-3);
     for (k, ((time, pair, approach), episode)) in impacts.iter().zip(&run.episodes).enumerate() {
         let what = format!("impact {k}: {episode:?}");
@@ -300,7 +300,7 @@ fn rebounds_of_rebounds_end() {
             pairs: vec![(0, 0, 0.01, e[0]), (0, 1, 0.013, e[1])],
         };
         let mut run = Run::new(&bodies.scene(false), None);
-        run.state.set_floor_force(Side::Left, 0, force);
+        run.state.set_floor_force(BuildingId::LEFT, 0, force);
         run.to(time);
         let whole = l + r1 + r2;
         let expected = DVector::from_element(3, (l * v + time * force) / whole);

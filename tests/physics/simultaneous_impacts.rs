@@ -2,7 +2,7 @@
 
 use crate::bodies::{Bodies, assert_same, velocities};
 use crate::common::{Run, assert_close, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene;
 use std::path::Path;
 
@@ -39,11 +39,11 @@ fn a_symmetric_situation_stays_symmetric() {
         pairs: vec![(0, 0, 0.01, 0.5), (0, 1, 0.01, 0.5)],
     };
     let mut run = Run::new(&bodies.scene(false), None);
-    run.state.set_floor_force(Side::Left, 0, 6.0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 6.0);
     for k in 1..=150 {
         run.to(0.01 * f64::from(k));
         let [a, b] = run.contacts()[..] else { panic!() };
-        let difference = run.velocity(Side::Right, 0) - run.velocity(Side::Right, 1);
+        let difference = run.velocity(BuildingId::RIGHT, 0) - run.velocity(BuildingId::RIGHT, 1);
         assert!(difference.abs() < 1e-14 && (a.force - b.force).abs() < 1e-13, "{a:?}, {b:?}");
         assert!((a.impulse - b.impulse).abs() < 1e-13 && a.impacts == b.impacts, "{a:?}, {b:?}");
     }

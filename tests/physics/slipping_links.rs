@@ -5,7 +5,7 @@
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
-use pounding::engine::{EnergyOutput, EngineError, LinkOutput, Output, PeakOf, PointRates, Side, YieldingOf};
+use pounding::engine::{BuildingId, EnergyOutput, EngineError, LinkOutput, Output, PeakOf, PointRates, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::{Link, Place, Scene, Slip};
 
@@ -22,8 +22,8 @@ const LAWS: [&str; 3] = [
 /// Between floors counted from 1; 0 is the ground.
 fn link((left, right): (usize, usize), (stiffness, dashpot): (f64, f64), slip: Option<(f64, f64)>) -> Link {
     let slip = slip.map(|(force, ratio)| Slip { force, ratio });
-    let place = |floor: usize| floor.checked_sub(1).map(Place::Floor);
-    Link { left: place(left), right: place(right), stiffness, dashpot, slip }
+    let end = |id, floor: usize| Some((id, Place::Floor(floor.checked_sub(1)?)));
+    Link { left: end(BuildingId::LEFT, left), right: end(BuildingId::RIGHT, right), stiffness, dashpot, slip }
 }
 
 fn scene_of(text: &str, links: &[Link]) -> Scene {
@@ -122,14 +122,14 @@ fn a_damper_between_equal_storeys_is_one_oscillator() {
         let time = 0.05 * f64::from(k);
         pair.to(time);
         one.to(time);
-        let (moved, shown) = (one.displacement(Side::Left, 0), one.storey(Side::Left, 0));
+        let (moved, shown) = (one.displacement(BuildingId::LEFT, 0), one.storey(BuildingId::LEFT, 0));
         most = most.max(moved.abs());
         slips += i32::from(shown.sense != 0);
         let near = |got: f64, expected: f64, what: &str| {
             assert!((got - expected).abs() < 1e-12 * most, "{what} at {time} s: {got:e} not {expected:e}");
         };
-        near(pair.displacement(Side::Left, 0), 0.5 * moved, "left");
-        near(pair.displacement(Side::Right, 0), -0.5 * moved, "right");
+        near(pair.displacement(BuildingId::LEFT, 0), 0.5 * moved, "left");
+        near(pair.displacement(BuildingId::RIGHT, 0), -0.5 * moved, "right");
         near(pair.read(Output::Link(0, LinkOutput::Slip)), shown.plastic, "slip");
         assert!(pair.energy().residual.abs() < 1e-13, "{:?}", pair.energy());
     }
@@ -155,23 +155,26 @@ fn frames() -> Scene {
 fn energies_follow_from_displacements() {
     let (scene, record) = (frames(), shaking(0.25));
     let mut run = Run::new(&scene, Some(&record));
-    let left = scene.left.clone();
+    let left = scene.buildings[0].clone();
     for k in 1..=100 {
         run.to(0.05 * f64::from(k));
-        let drift =
-            |side: Side, i: usize| run.displacement(side, i) - if i > 0 { run.displacement(side, i - 1) } else { 0.0 };
+        let drift = |side: BuildingId, i: usize| {
+            run.displacement(side, i) - if i > 0 { run.displacement(side, i - 1) } else { 0.0 }
+        };
         // Weight above each storey over its height.
         let g = |i: usize| 9.806_65 * left.mass[i..].iter().sum::<f64>() / 3.0;
-        let gravity: f64 = (0..3).map(|i| -0.5 * g(i) * drift(Side::Left, i).powi(2)).sum();
+        let gravity: f64 = (0..3).map(|i| -0.5 * g(i) * drift(BuildingId::LEFT, i).powi(2)).sum();
         let bilinear = |k: f64, ratio: f64, d: f64, p: f64| 0.5 * k * (ratio * d * d + (1.0 - ratio) * (d - p).powi(2));
-        let of_storeys = [(Side::Left, &scene.left), (Side::Right, &scene.right)].map(|(side, building)| {
-            let of = |i: usize| {
-                let (k, ratio) =
-                    (building.stiffness.of_storey(i).unwrap(), building.yielding_storey(i).map_or(1.0, |y| y.1));
-                bilinear(k, ratio, drift(side, i), run.storey(side, i).plastic)
-            };
-            (0..building.mass.len()).map(of).sum::<f64>()
-        });
+        let of_storeys = [(BuildingId::LEFT, &scene.buildings[0]), (BuildingId::RIGHT, &scene.buildings[1])].map(
+            |(side, building)| {
+                let of = |i: usize| {
+                    let (k, ratio) =
+                        (building.stiffness.of_storey(i).unwrap(), building.yielding_storey(i).map_or(1.0, |y| y.1));
+                    bilinear(k, ratio, drift(side, i), run.storey(side, i).plastic)
+                };
+                (0..building.mass.len()).map(of).sum::<f64>()
+            },
+        );
         let of_links = scene.links.iter().enumerate().map(|(l, link)| {
             let of = |of| run.read(Output::Link(l, of));
             let slip = link.slip.unwrap();
@@ -199,10 +202,10 @@ fn peaks_are_those_of_the_readings() {
         (Output::Link(1, LinkOutput::Force), PeakOf::LinkForce(1)),
         (Output::Link(0, LinkOutput::Displacement), PeakOf::LinkDisplacement(0)),
         (Output::Link(1, LinkOutput::Displacement), PeakOf::LinkDisplacement(1)),
-        (Output::BaseShear(Side::Left), PeakOf::BaseShear(Side::Left)),
-        (Output::BaseShear(Side::Right), PeakOf::BaseShear(Side::Right)),
-        (Output::Displacement(Side::Left, 2), PeakOf::Displacement(Side::Left, 2)),
-        (Output::Acceleration(Side::Right, 1), PeakOf::Acceleration(Side::Right, 1)),
+        (Output::BaseShear(BuildingId::LEFT), PeakOf::BaseShear(BuildingId::LEFT)),
+        (Output::BaseShear(BuildingId::RIGHT), PeakOf::BaseShear(BuildingId::RIGHT)),
+        (Output::Displacement(BuildingId::LEFT, 2), PeakOf::Displacement(BuildingId::LEFT, 2)),
+        (Output::Acceleration(BuildingId::RIGHT, 1), PeakOf::Acceleration(BuildingId::RIGHT, 1)),
     ];
     let mut read = [0.0_f64; 8];
     for k in 1..=50_000 {
@@ -245,9 +248,9 @@ fn rates_are_differences() {
     ];
     let mut outputs: Vec<Output> = (0..2).flat_map(|l| links.map(|of| Output::Link(l, of))).collect();
     let storeys = [YieldingOf::Shear, YieldingOf::ResidualDrift, YieldingOf::HystereticEnergy];
-    outputs.extend((0..2).flat_map(|i| storeys.map(|of| Output::OfYielding(of, Side::Left, i))));
+    outputs.extend((0..2).flat_map(|i| storeys.map(|of| Output::OfYielding(of, BuildingId::LEFT, i))));
     outputs.extend([EnergyOutput::Strain, EnergyOutput::Hysteretic, EnergyOutput::Gravity].map(Output::Energy));
-    outputs.extend([Side::Left, Side::Right].map(Output::BaseShear));
+    outputs.extend([BuildingId::LEFT, BuildingId::RIGHT].map(Output::BaseShear));
     let (h, mut sizes, mut worst) = (1e-6, vec![0.0_f64; outputs.len()], vec![0.0_f64; outputs.len()]);
     for k in 1..500 {
         // Not at a sample.

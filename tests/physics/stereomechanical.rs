@@ -6,7 +6,7 @@
 
 use crate::common::problems::two_masses::{Mass, TwoMasses, reduced_mass};
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{Episode, Side};
+use pounding::engine::{BuildingId, Episode};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
                 assert_close(first.approach_velocity, approach, 1e-15, "approach velocity");
                 assert!((first.separation_velocity - e * approach).abs() < 1e-15 * approach, "separation, {what}");
                 assert_close(first.impulse, exact.impulse(e), 1e-15, "impulse");
-                let (after1, after2) = (run.velocity(Side::Left, 0), run.velocity(Side::Right, 0));
+                let (after1, after2) = (run.velocity(BuildingId::LEFT, 0), run.velocity(BuildingId::RIGHT, 0));
                 let size = v1.abs().max(v2.abs());
                 let (expected1, expected2) = exact.velocities_after(e);
                 assert!((after1 - expected1).abs() < 2e-15 * size, "eq. 1, {what}: {after1} and {expected1}");
@@ -82,7 +82,7 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
         // Each of the many communication steps rounds time and motion once more.
         for (step, allowed) in [(stop, 2e-14), (0.013, 1e-12)] {
             let mut run = Run::new(&pair(Mass::free(left, speed), Mass::free(right, 0.0), gap, e), None);
-            run.state.set_floor_force(Side::Left, 0, force);
+            run.state.set_floor_force(BuildingId::LEFT, 0, force);
             run.in_steps(step, stop);
             let (mut time, mut v) = (t0, v0);
             let impulses: Vec<&Episode> = run.episodes.iter().filter(|episode| is_impulse(episode)).collect();
@@ -121,8 +121,8 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
             assert_close(point.impulse, m * (speed + a * stop), allowed, "impulse of all");
             // m V0^2 / 2 sum of (1 - e^2) e^2n: all of it.
             assert_close(point.dissipated_energy, 0.5 * m * v0 * v0, 10.0 * allowed, "energy lost in all");
-            assert_close(run.velocity(Side::Left, 0), together, allowed, "left velocity");
-            assert_close(run.velocity(Side::Right, 0), together, allowed, "right velocity");
+            assert_close(run.velocity(BuildingId::LEFT, 0), together, allowed, "left velocity");
+            assert_close(run.velocity(BuildingId::RIGHT, 0), together, allowed, "right velocity");
             assert!(run.energy().residual.abs() < 1e-13, "{:?}", run.energy());
         }
     }
@@ -151,7 +151,7 @@ fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
         // The centre of mass swings as if nothing had happened.
         let centre = left / (left + right) * (speed / w * (w * 5.0).sin() - g * (w * 5.0).cos());
         let expected = [centre - right / (left + right) * g, centre + left / (left + right) * g];
-        let got = [run.displacement(Side::Left, 0), run.displacement(Side::Right, 0)];
+        let got = [run.displacement(BuildingId::LEFT, 0), run.displacement(BuildingId::RIGHT, 0)];
         assert!((got[0] - expected[0]).abs() < 1e-14 && (got[1] - expected[1]).abs() < 1e-14, "{got:?}, {expected:?}");
     }
     // Elastic: for ever, always alike.
@@ -173,7 +173,7 @@ fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
     let mut run = Run::new(&pair(Mass::free(left, 0.0), Mass::free(right, 0.0), 0.0, 0.5), None);
     let mut pushed = 0.0;
     for (k, force) in [2.0, 7.0, 1.0, 0.25].into_iter().enumerate() {
-        run.state.set_floor_force(Side::Left, 0, force);
+        run.state.set_floor_force(BuildingId::LEFT, 0, force);
         run.to(f64::from(k as u32) + 0.5);
         let reaction = force * right / (left + right);
         assert_close(run.contact(0).force, reaction, 1e-14, "reaction");
@@ -182,11 +182,11 @@ fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
         assert_close(run.contact(0).impulse, pushed, 1e-14, "impulse");
     }
     // A push on the right floor to the left presses as well: m (F_left / m_left - F_right / m_right).
-    run.state.set_floor_force(Side::Left, 0, 0.0);
-    run.state.set_floor_force(Side::Right, 0, -1.5);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 0.0);
+    run.state.set_floor_force(BuildingId::RIGHT, 0, -1.5);
     run.to(5.0);
     assert_close(run.contact(0).force, 1.5 * left / (left + right), 1e-14, "reaction");
-    run.state.set_floor_force(Side::Right, 0, 1.5);
+    run.state.set_floor_force(BuildingId::RIGHT, 0, 1.5);
     run.to(6.0);
     assert_eq!(run.episodes.len(), 1, "{:?}", run.episodes);
     let episode = run.episodes[0];
@@ -226,8 +226,8 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
             for part in [0.1, 0.5, 0.9] {
                 run.to(part * release);
                 let (u, v) = motion(part * release);
-                assert_close(run.displacement(Side::Left, 0), u, 1e-13, "displacement");
-                assert_close(run.displacement(Side::Right, 0), u, 1e-13, "displacement");
+                assert_close(run.displacement(BuildingId::LEFT, 0), u, 1e-13, "displacement");
+                assert_close(run.displacement(BuildingId::RIGHT, 0), u, 1e-13, "displacement");
                 let error = run.contact(0).force - (by_u * u + by_v * v);
                 assert!(error.abs() < 1e-13 * by_u * u0, "reaction at {part} of the contact, off by {error:e}");
             }

@@ -5,7 +5,7 @@ use pounding::structure::{ModalDamping, Modes};
 use std::f64::consts::PI;
 
 fn shear(mass: Vec<f64>, stiffness: Vec<f64>, damping: Damping) -> Building {
-    Building::new(mass, Stiffness::Shear(stiffness), damping)
+    Building::new("left", mass, Stiffness::Shear(stiffness), damping)
 }
 
 /// N equal storeys: w_j = 2 sqrt(k/m) sin((2j - 1) pi / (2 (2N + 1))) (Chopra, Dynamics of Structures).

@@ -2,7 +2,7 @@
 
 use crate::common::{Run, scene};
 use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKey, LawKind};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::law_key;
 use proptest::prelude::*;
 
@@ -113,13 +113,13 @@ fn pull_and_press(kind: LawKind, formula: DampingFormula) -> Seen {
     let (mut seen, mut impulse) = (Seen::default(), 0.0);
     // 5 ms into the contact the floors are pulled apart, 0.5 ms later pressed together, then left to themselves.
     for (until, pull) in [(0.015, 0.0), (0.0155, 1e6), (0.0163, -2e6), (0.05, 0.0)] {
-        run.state.set_floor_force(Side::Left, 0, -pull);
-        run.state.set_floor_force(Side::Right, 0, pull);
+        run.state.set_floor_force(BuildingId::LEFT, 0, -pull);
+        run.state.set_floor_force(BuildingId::RIGHT, 0, pull);
         while run.state.time() < until - 1e-9 {
             let next = f64::min(run.state.time() + 1e-5, until);
             run.to(next);
             let contact = run.contact(0);
-            let rate = run.velocity(Side::Left, 0) - run.velocity(Side::Right, 0);
+            let rate = run.velocity(BuildingId::LEFT, 0) - run.velocity(BuildingId::RIGHT, 0);
             seen.least = seen.least.min(contact.force);
             if kind != LawKind::KelvinVoigt {
                 assert!(contact.impulse >= impulse, "{kind:?}: an impulse that shrinks");

@@ -1,15 +1,15 @@
 //! Floors against walls, by closed forms, and a wall as the limit of a heavy and stiff neighbour.
 
-use crate::common::{Run, assert_close, scene};
+use crate::common::{Run, assert_close, name, scene};
 use crate::rows::{bisect, building};
-use pounding::engine::Side;
-use pounding::scene::Scene;
+use pounding::engine::BuildingId;
+use pounding::scene::{Scene, Side};
 use std::f64::consts::PI;
 
 /// A mass on a spring without damping that starts at rest position with a velocity towards a wall.
 #[derive(Clone, Copy)]
 struct AtWall {
-    building: Side,
+    building: BuildingId,
     wall: Side,
 }
 
@@ -21,10 +21,10 @@ const GAP: f64 = 0.04;
 impl AtWall {
     /// Floors of either building with a wall on either side.
     const ALL: [AtWall; 4] = [
-        AtWall { building: Side::Left, wall: Side::Right },
-        AtWall { building: Side::Left, wall: Side::Left },
-        AtWall { building: Side::Right, wall: Side::Right },
-        AtWall { building: Side::Right, wall: Side::Left },
+        AtWall { building: BuildingId::LEFT, wall: Side::Right },
+        AtWall { building: BuildingId::LEFT, wall: Side::Left },
+        AtWall { building: BuildingId::RIGHT, wall: Side::Right },
+        AtWall { building: BuildingId::RIGHT, wall: Side::Left },
     ];
 
     /// Towards the wall is positive.
@@ -34,12 +34,12 @@ impl AtWall {
 
     fn scene(self, law: &str) -> Scene {
         let mass = |side| building(side, &[MASS], &[SPRING], &[self.sign() * SPEED]);
-        let buildings = match self.building {
-            Side::Left => mass("left"),
+        let buildings = match self.building == BuildingId::LEFT {
+            true => mass("left"),
             // One that nothing meets.
-            Side::Right => building("left", &[1.0], &[1.0], &[0.0]) + &mass("right"),
+            false => building("left", &[1.0], &[1.0], &[0.0]) + &mass("right"),
         };
-        let (floor, wall) = (self.building.name(), self.wall.name());
+        let (floor, wall) = (name(self.building), self.wall.name());
         scene(&format!(
             "name = \"Wall\"\n{buildings}[outputs]\nenergy = true\n\
              [[contact]]\n{floor}_floor = 1\nwall = \"{wall}\"\ngap = {GAP:?}\n{law}\n"
@@ -181,9 +181,9 @@ fn a_neighbour_of_any_weight_and_stiffness_is_a_wall() {
         for time in [0.145, 0.15, 0.4, 2.5] {
             wall.to(time);
             heavy.to(time);
-            let apart = (wall.displacement(Side::Left, 0) - heavy.displacement(Side::Left, 0)).abs() / GAP;
+            let apart = (wall.displacement(BuildingId::LEFT, 0) - heavy.displacement(BuildingId::LEFT, 0)).abs() / GAP;
             assert!(apart < 1e-13, "{law}: {apart:.1e} at {time} s");
-            let apart = (wall.velocity(Side::Left, 0) - heavy.velocity(Side::Left, 0)).abs() / SPEED;
+            let apart = (wall.velocity(BuildingId::LEFT, 0) - heavy.velocity(BuildingId::LEFT, 0)).abs() / SPEED;
             assert!(apart < 1e-13, "{law}: {apart:.1e} at {time} s");
         }
         assert!(wall.episodes.len() >= 3 && wall.episodes.len() == heavy.episodes.len(), "{law}");

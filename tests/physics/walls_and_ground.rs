@@ -2,7 +2,7 @@
 //! floors which are held against it. Against closed forms.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{ContactOutput, Input, Output, Response, Side};
+use pounding::engine::{BuildingId, ContactOutput, Input, Output, Response};
 use std::f64::consts::PI;
 
 /// A single mass, kg, of that period, s, and more of the scene.
@@ -54,18 +54,18 @@ fn an_impulse_goes_through_a_floor_that_is_held_against_a_wall() {
         rigid("right_floor = 1\nwall = \"right\"", 0.0, 0.2),
     );
     let mut run = Run::new(&scene(&text), None);
-    run.state.set_floor_force(Side::Right, 0, push);
+    run.state.set_floor_force(BuildingId::RIGHT, 0, push);
     run.to(0.1);
     let held = run.contact(1);
     assert!(held.active && held.impacts == 1, "{held:?}");
     run.to(0.5);
     let (hit, leaning) = (run.contact(0), run.contact(1));
     assert_eq!(hit.impacts, 1);
-    assert_close(run.velocity(Side::Left, 0), -e * speed, 1e-14, "rebound");
+    assert_close(run.velocity(BuildingId::LEFT, 0), -e * speed, 1e-14, "rebound");
     assert_close(hit.impulse, mass * (1.0 + e) * speed, 1e-14, "impulse of the impact");
     assert_close(leaning.impulse, push * 0.5 + hit.impulse, 1e-13, "impulse on the wall");
     assert!(leaning.active && leaning.impacts == 1, "the sustained contact goes on: {leaning:?}");
-    assert!(run.displacement(Side::Right, 0).abs() < 1e-15 && run.velocity(Side::Right, 0).abs() < 1e-15);
+    assert!(run.displacement(BuildingId::RIGHT, 0).abs() < 1e-15 && run.velocity(BuildingId::RIGHT, 0).abs() < 1e-15);
     assert_close(leaning.force, push, 1e-14, "reaction of the wall");
     assert!(run.energy().residual.abs() < 1e-14, "{:?}", run.energy());
 }
@@ -81,10 +81,10 @@ fn a_reaction_of_a_wall_answers_to_the_ground_at_once() {
     run.to(0.3);
     assert!(run.contact(0).active);
     assert_close(run.contact(0).force, 2.0 * mass, 1e-13, "reaction");
-    assert_close(run.read(Output::Acceleration(Side::Left, 0)), -2.0, 1e-13, "acceleration");
+    assert_close(run.read(Output::Acceleration(BuildingId::LEFT, 0)), -2.0, 1e-13, "acceleration");
     let mut response = Response::default();
     run.now().respond([(Input::GroundAcceleration, 1.0)], &mut response);
     let answer = |output| run.model.response_of(&response, output);
     assert_close(answer(Output::Contact(0, ContactOutput::Force)), -mass, 1e-14, "reaction by ground acceleration");
-    assert_close(answer(Output::Acceleration(Side::Left, 0)), 1.0, 1e-14, "acceleration by that of the ground");
+    assert_close(answer(Output::Acceleration(BuildingId::LEFT, 0)), 1.0, 1e-14, "acceleration by that of the ground");
 }

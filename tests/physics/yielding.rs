@@ -3,7 +3,7 @@
 
 use crate::bilinear::Oscillator;
 use crate::common::{Run, assert_close, scene};
-use pounding::engine::{Output, PeakOf, Side};
+use pounding::engine::{BuildingId, Output, PeakOf};
 use pounding::scene::{Scene, Yielding};
 use std::f64::consts::PI;
 
@@ -59,22 +59,22 @@ impl OneStorey {
 /// All that is shown of the storey, against the closed form; `tolerance` is relative to the largest of its kind.
 #[track_caller]
 pub fn assert_like(run: &Run, one: &OneStorey, exact: &Oscillator, tolerance: f64, what: &str) {
-    let shown = run.storey(Side::Left, 0);
+    let shown = run.storey(BuildingId::LEFT, 0);
     let limit = exact.limit;
     let size = limit + exact.furthest + exact.drift().abs();
     let near = |got: f64, expected: f64, size: f64, name: &str| {
         let error = (got - expected).abs() / size;
         assert!(error <= tolerance, "{name} of {what}, at {} s: {got:e} not {expected:e}: {error:.1e}", exact.time);
     };
-    near(run.displacement(Side::Left, 0), exact.drift(), size, "displacement");
-    near(run.velocity(Side::Left, 0), exact.rate, size * exact.w, "velocity");
+    near(run.displacement(BuildingId::LEFT, 0), exact.drift(), size, "displacement");
+    near(run.velocity(BuildingId::LEFT, 0), exact.rate, size * exact.w, "velocity");
     near(shown.plastic, exact.plastic, size, "plastic drift");
     near(shown.residual, (1.0 - one.ratio) * exact.plastic, size, "residual drift");
     near(shown.cumulative, exact.cumulative, size + exact.cumulative, "cumulative plastic drift");
     let kept = (1.0 - one.ratio) * one.force;
     near(shown.hysteretic, kept * exact.cumulative, kept * (size + exact.cumulative), "hysteretic energy");
     near(shown.shear, one.mass * exact.force(), one.force + one.stiffness * size, "storey shear");
-    near(run.read(Output::BaseShear(Side::Left)), shown.shear, one.force + one.stiffness * size, "base shear");
+    near(run.read(Output::BaseShear(BuildingId::LEFT)), shown.shear, one.force + one.stiffness * size, "base shear");
     assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
 }
 
@@ -84,7 +84,7 @@ fn assert_switch(one: &OneStorey, time: f64, senses: [i32; 2], what: &str) {
     for (time, sense) in [time - 1e-10, time + 1e-10].into_iter().zip(senses) {
         let mut run = one.run();
         run.to(time);
-        assert_eq!(run.storey(Side::Left, 0).sense, sense, "{what}, {time} s");
+        assert_eq!(run.storey(BuildingId::LEFT, 0).sense, sense, "{what}, {time} s");
     }
 }
 
@@ -107,17 +107,17 @@ fn an_elastic_perfectly_plastic_storey_touches_its_limit_for_ever() {
         let mut run = one.run();
         for k in 0..5000 {
             run.to(t2 + (f64::from(k) + 0.3) * period);
-            let shown = run.storey(Side::Left, 0);
+            let shown = run.storey(BuildingId::LEFT, 0);
             let error =
                 (shown.plastic - sign * plastic).abs().max((shown.cumulative - plastic).abs()) / (limit + plastic);
             assert!(error < 1e-12 && shown.sense == 0, "{what}, period {k}: {shown:?} not {plastic:e}, {error:.1e}");
             let u = sign * (plastic + limit * (w * (run.state.time() - t2)).cos());
-            let error = (run.displacement(Side::Left, 0) - u).abs() / (limit + plastic);
+            let error = (run.displacement(BuildingId::LEFT, 0) - u).abs() / (limit + plastic);
             assert!(error < 1e-11, "{what}, period {k}: off by {error:.1e}");
             assert!(run.energy().residual.abs() < 1e-12, "{what}, period {k}: {:?}", run.energy());
         }
-        assert_close(run.storey(Side::Left, 0).ductility, 1.0 + plastic / limit, 1e-12, &what);
-        assert_close(run.peak(PeakOf::Displacement(Side::Left, 0)), plastic + limit, 1e-12, &what);
+        assert_close(run.storey(BuildingId::LEFT, 0).ductility, 1.0 + plastic / limit, 1e-12, &what);
+        assert_close(run.peak(PeakOf::Displacement(BuildingId::LEFT, 0)), plastic + limit, 1e-12, &what);
     }
 }
 
@@ -129,20 +129,20 @@ fn a_force_that_is_set_and_kept() {
     {
         let one = OneStorey::USUAL;
         let mut run = one.run();
-        run.state.set_floor_force(Side::Left, 0, share * one.force);
+        run.state.set_floor_force(BuildingId::LEFT, 0, share * one.force);
         let what = format!("{share} of the yield force");
         for time in [0.01, 0.1, 0.7, 2.0, 100.0] {
             run.to(time);
             let start = Oscillator { load: share * one.force / one.mass, ..one.oscillator() };
             assert_like(&run, &one, &start.at(time), 2e-11, &what);
         }
-        assert_close(run.storey(Side::Left, 0).ductility, ductility, 1e-11, &what);
+        assert_close(run.storey(BuildingId::LEFT, 0).ductility, ductility, 1e-11, &what);
     }
     // From the limit on, a parabola.
     for share in [1.1, -2.0, 50.0] {
         let one = OneStorey::USUAL;
         let mut run = one.run();
-        run.state.set_floor_force(Side::Left, 0, share * one.force);
+        run.state.set_floor_force(BuildingId::LEFT, 0, share * one.force);
         let (w, limit, load) = (20.0, 5e-3, share * one.force / one.mass);
         let sense = f64::signum(share);
         let t1 = f64::acos(1.0 - 1.0 / share.abs()) / w;
@@ -152,12 +152,12 @@ fn a_force_that_is_set_and_kept() {
             run.to(time);
             let t = time - t1;
             let u = sense * limit + v1 * t + 0.5 * a * t * t;
-            assert_close(run.displacement(Side::Left, 0), u, 1e-12, &format!("{share} at {time} s"));
-            assert_eq!(run.storey(Side::Left, 0).sense, sense as i32);
-            assert_close(run.storey(Side::Left, 0).plastic, u - sense * limit, 1e-12, &format!("{share}"));
+            assert_close(run.displacement(BuildingId::LEFT, 0), u, 1e-12, &format!("{share} at {time} s"));
+            assert_eq!(run.storey(BuildingId::LEFT, 0).sense, sense as i32);
+            assert_close(run.storey(BuildingId::LEFT, 0).plastic, u - sense * limit, 1e-12, &format!("{share}"));
             assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
         }
-        assert!(run.storey(Side::Left, 0).ductility > 100.0);
+        assert!(run.storey(BuildingId::LEFT, 0).ductility > 100.0);
     }
 }
 
@@ -183,7 +183,7 @@ fn an_undamped_bilinear_storey_comes_to_swing_to_its_limit() {
         let (mut turns, mut last) = (vec![0.0], 0);
         for k in 1..=60_000 {
             run.to(1e-4 * f64::from(k));
-            let shown = run.storey(Side::Left, 0);
+            let shown = run.storey(BuildingId::LEFT, 0);
             if last != 0 && shown.sense == 0 {
                 turns.push(shown.cumulative);
             }
@@ -195,7 +195,7 @@ fn an_undamped_bilinear_storey_comes_to_swing_to_its_limit() {
             assert!(error < 1e-11, "{ratio}, step {i}: {:e} not {step:e}", turn[1] - turn[0]);
         }
         let dissipated = (1.0 - ratio) * one.force * steps.iter().sum::<f64>();
-        assert_close(run.storey(Side::Left, 0).hysteretic, dissipated, 1e-11, &format!("{ratio}: dissipated"));
+        assert_close(run.storey(BuildingId::LEFT, 0).hysteretic, dissipated, 1e-11, &format!("{ratio}: dissipated"));
         if e > limit {
             let all = one.mass * (0.5 * one.rate * one.rate - 0.5 * w * w * limit * limit);
             assert_close(dissipated, all, 1e-9, &format!("{ratio}: down to the limit"));
@@ -220,10 +220,15 @@ fn every_ratio_and_yield_force() {
                 run.to(time);
                 assert_like(&run, &one, &start.at(time), 1e-11, &what);
             }
-            assert_eq!(run.storey(Side::Left, 0).cumulative > 0.0, factor < 2.0, "{what}");
+            assert_eq!(run.storey(BuildingId::LEFT, 0).cumulative > 0.0, factor < 2.0, "{what}");
             let turn = start.switches(1.48).get(1).map_or(0.01, |turn| turn.drift().abs());
-            let turns = if factor < 1.0 && ratio < 1e-3 { run.displacement(Side::Left, 0).abs() } else { turn };
-            assert_close(run.storey(Side::Left, 0).ductility * start.limit, turns, 1e-9, &format!("ductility, {what}"));
+            let turns = if factor < 1.0 && ratio < 1e-3 { run.displacement(BuildingId::LEFT, 0).abs() } else { turn };
+            assert_close(
+                run.storey(BuildingId::LEFT, 0).ductility * start.limit,
+                turns,
+                1e-9,
+                &format!("ductility, {what}"),
+            );
         }
     }
 }
@@ -233,19 +238,19 @@ fn every_ratio_and_yield_force() {
 fn a_storey_that_never_yields_moves_like_one_that_cannot() {
     let one = OneStorey { force: 1e12 * OneStorey::USUAL.force, ratio: 0.1, rate: 0.2, ..OneStorey::USUAL };
     let mut elastic = one.scene();
-    elastic.left.yielding = None;
+    elastic.buildings[0].yielding = None;
     let (mut run, mut elastic) = (one.run(), Run::new(&elastic, None));
     for k in 1..=200 {
         let time = 0.11 * f64::from(k);
         for run in [&mut run, &mut elastic] {
-            run.state.set_floor_force(Side::Left, 0, 4e4 * f64::from(k % 7 - 3));
+            run.state.set_floor_force(BuildingId::LEFT, 0, 4e4 * f64::from(k % 7 - 3));
             run.to(time);
         }
-        let apart = (run.displacement(Side::Left, 0) - elastic.displacement(Side::Left, 0)).abs();
+        let apart = (run.displacement(BuildingId::LEFT, 0) - elastic.displacement(BuildingId::LEFT, 0)).abs();
         assert!(apart < 1e-15, "{apart:e} m at {time} s");
-        assert_eq!(run.storey(Side::Left, 0).plastic, 0.0);
-        let shear = run.storey(Side::Left, 0).shear;
-        let error = (shear - one.stiffness * run.displacement(Side::Left, 0)).abs();
+        assert_eq!(run.storey(BuildingId::LEFT, 0).plastic, 0.0);
+        let shear = run.storey(BuildingId::LEFT, 0).shear;
+        let error = (shear - one.stiffness * run.displacement(BuildingId::LEFT, 0)).abs();
         assert!(error < 1e-8, "shear {shear} N, off by {error:e}");
     }
 }
@@ -272,7 +277,7 @@ fn displacements_at_the_start() {
             let (mut run, start) = (one.run(), one.oscillator());
             let what = format!("{drift} m, {rate} m/s, r = {ratio}");
             run.to(0.0);
-            let (shown, energy) = (run.storey(Side::Left, 0), run.energy());
+            let (shown, energy) = (run.storey(BuildingId::LEFT, 0), run.energy());
             assert_eq!((shown.cumulative, shown.hysteretic), (0.0, 0.0), "{what}: {energy:?}");
             assert!(energy.residual.abs() < 1e-15, "{what}: {energy:?}");
             for time in [1e-12, 1e-6, 1e-3, 0.02, 0.1, 0.9, 5.0] {
@@ -282,7 +287,7 @@ fn displacements_at_the_start() {
             let yields = start.at(1e-9).sense as i32;
             let mut run = one.run();
             run.to(1e-9);
-            assert_eq!(run.storey(Side::Left, 0).sense, yields, "{what}");
+            assert_eq!(run.storey(BuildingId::LEFT, 0).sense, yields, "{what}");
         }
     }
 }
@@ -295,7 +300,7 @@ fn plastic_drifts_of_a_hundred_yield_drifts() {
         let mut run = one.run();
         let mut now = one.oscillator();
         for (time, share) in [(0.9, 1.5), (1.4, -1.2), (3.0, 0.7), (4.0, -1.9)] {
-            run.state.set_floor_force(Side::Left, 0, share * one.force);
+            run.state.set_floor_force(BuildingId::LEFT, 0, share * one.force);
             run.to(time);
             now = Oscillator { load: share * one.force / one.mass, ..now }.at(time);
             assert_like(&run, &one, &now, 1e-12, &format!("{share}, r = {ratio}"));
@@ -314,6 +319,6 @@ fn storeys_without_a_limit_have_the_same_bits() {
         [0.1, 0.5, 3.0].map(|time| run.to(time).bits())
     };
     let expected = bits(&plain);
-    plain.left.yielding = Some(Yielding::new(vec![f64::INFINITY; 3], vec![0.0, 0.1, 0.2]));
+    plain.buildings[0].yielding = Some(Yielding::new(vec![f64::INFINITY; 3], vec![0.0, 0.1, 0.2]));
     assert!(bits(&plain) == expected);
 }

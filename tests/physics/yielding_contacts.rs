@@ -4,7 +4,7 @@ use crate::bilinear::Oscillator;
 use crate::common::{Run, assert_close};
 use crate::rows::bisect;
 use crate::yielding::{OneStorey, assert_like};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 
 /// The storey beside a wall on the right.
@@ -77,14 +77,14 @@ fn a_storey_that_yields_in_contact_keeps_the_energy() {
                 false => f64::asin(w * limit / v0) / w,
             };
             run.to(yielded - 1e-10);
-            assert_eq!(run.storey(Side::Left, 0).sense, 0, "before {yielded}: {what}");
+            assert_eq!(run.storey(BuildingId::LEFT, 0).sense, 0, "before {yielded}: {what}");
             run.to(yielded + 1e-10);
-            assert_eq!(run.storey(Side::Left, 0).sense, 1, "after {yielded}: {what}");
-            while run.storey(Side::Left, 0).sense != 0 {
+            assert_eq!(run.storey(BuildingId::LEFT, 0).sense, 1, "after {yielded}: {what}");
+            while run.storey(BuildingId::LEFT, 0).sense != 0 {
                 let time = run.state.time();
                 run.to(time + 1e-5);
             }
-            let shown = run.storey(Side::Left, 0);
+            let shown = run.storey(BuildingId::LEFT, 0);
             assert_close(shown.cumulative, plastic, 1e-11, &what);
             assert_close(shown.plastic, plastic, 1e-11, &what);
             assert_close(shown.ductility, 1.0 + plastic / limit, 1e-11, &what);
@@ -97,7 +97,7 @@ fn a_storey_that_yields_in_contact_keeps_the_energy() {
             }
             run.to(5.0);
             assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
-            assert!(run.storey(Side::Left, 0).plastic < plastic, "thrown back: {what}");
+            assert!(run.storey(BuildingId::LEFT, 0).plastic < plastic, "thrown back: {what}");
         }
     }
 }
@@ -114,7 +114,7 @@ fn an_impulse_unloads_a_storey() {
         let entry = bisect(|t| gap - start.at(t).drift(), 0.0, 0.04);
         let before = start.at(entry);
         run.to(entry - 1e-10);
-        assert_eq!(run.storey(Side::Left, 0).sense, i32::from(gap > 5e-3), "{what}");
+        assert_eq!(run.storey(BuildingId::LEFT, 0).sense, i32::from(gap > 5e-3), "{what}");
         let plastic = (gap - start.limit).max(0.0);
         let elastic = gap.min(start.limit);
         let after = Oscillator { rate: -e * before.rate, sense: 0.0, elastic, plastic, ..before };
@@ -133,7 +133,7 @@ fn an_impulse_unloads_a_storey() {
         let episode = run.episodes[0];
         assert_close(episode.start, entry, 1e-12, &what);
         assert_close(episode.approach_velocity, before.rate, 1e-11, &what);
-        assert!(e > 0.0 || run.storey(Side::Left, 0).sense == 0, "{what}");
+        assert!(e > 0.0 || run.storey(BuildingId::LEFT, 0).sense == 0, "{what}");
     }
 }
 
@@ -164,11 +164,11 @@ fn a_storey_yields_while_its_floor_is_held_by_a_rigid_pair() {
         run.to(time);
         let now = start.at(time);
         let size = limit + plastic;
-        for side in [Side::Left, Side::Right] {
+        for side in [BuildingId::LEFT, BuildingId::RIGHT] {
             let error = (run.displacement(side, 0) - now.drift()).abs() / size;
             assert!(error < 1e-12, "{side:?} at {time} s: off by {error:.1e}");
         }
-        let shown = run.storey(Side::Left, 0);
+        let shown = run.storey(BuildingId::LEFT, 0);
         assert!((shown.plastic - now.plastic).abs() < 1e-12 * size, "{shown:?} not {now:?}");
         assert!((shown.cumulative - now.cumulative).abs() < 1e-12 * size, "{shown:?} not {now:?}");
         assert_eq!(shown.sense, now.sense as i32, "at {time} s");
@@ -192,18 +192,18 @@ fn a_storey_at_its_limit_is_held_against_a_wall() {
         let what = format!("r = {ratio}, e = {e}");
         let law = format!("law = \"stereomechanical\"\nrestitution = {e:?}");
         let mut run = Run::new(&at_wall(&one, gap, &law), None);
-        run.state.set_floor_force(Side::Left, 0, 2.0 * one.force);
+        run.state.set_floor_force(BuildingId::LEFT, 0, 2.0 * one.force);
         // Not longer: the force works on the rounding of a displacement that is held, once a step.
         run.to(4.0);
-        let (shown, contact) = (run.storey(Side::Left, 0), run.contact(0));
-        assert!(contact.active && (run.displacement(Side::Left, 0) - gap).abs() < 1e-15, "{what}: {contact:?}");
+        let (shown, contact) = (run.storey(BuildingId::LEFT, 0), run.contact(0));
+        assert!(contact.active && (run.displacement(BuildingId::LEFT, 0) - gap).abs() < 1e-15, "{what}: {contact:?}");
         assert_close(shown.plastic, gap - limit, 1e-12, &what);
         assert_eq!(shown.sense, 0, "{what}: it does not move");
         let shear = one.force + ratio * one.stiffness * (gap - limit);
         assert_close(shown.shear, shear, 1e-12, &what);
         assert_close(contact.force, 2.0 * one.force - shear, 1e-11, &what);
         assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
-        run.state.set_floor_force(Side::Left, 0, 0.0);
+        run.state.set_floor_force(BuildingId::LEFT, 0, 0.0);
         let start =
             Oscillator { elastic: limit, plastic: gap - limit, furthest: gap - limit, time: 4.0, ..one.oscillator() };
         let earlier = shown.cumulative;

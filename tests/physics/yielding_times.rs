@@ -4,7 +4,7 @@ use crate::bilinear::Oscillator;
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, assert_close, record, scene};
 use crate::yielding::{OneStorey, assert_like};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::record::Record;
 
 /// A ground that rests, with a sample at this time too.
@@ -40,7 +40,7 @@ fn a_yield_and_a_turn_on_a_sample_and_at_a_communication_point() {
                     let sense = start.at(time + 1e-10).sense as i32;
                     let mut again = Run::new(&scene, Some(&rest));
                     again.to(time + 1e-10);
-                    assert_eq!(again.storey(Side::Left, 0).sense, sense, "{what}");
+                    assert_eq!(again.storey(BuildingId::LEFT, 0).sense, sense, "{what}");
                 }
             }
         }
@@ -59,7 +59,7 @@ fn a_yield_and_its_turn_within_one_sample() {
             // (v0^2 - w^2 limit^2) / (2 w^2 limit)
             let plastic = 5e-3 * beyond * (1.0 + 0.5 * beyond);
             run.to(3.0);
-            let shown = run.storey(Side::Left, 0);
+            let shown = run.storey(BuildingId::LEFT, 0);
             assert!((shown.plastic - plastic).abs() < 1e-14 * 5e-3, "{beyond} beyond: {shown:?} not {plastic:e}");
             assert!(shown.cumulative - shown.plastic < 1e-14 * 5e-3, "{beyond} beyond: {shown:?}");
         }
@@ -82,13 +82,13 @@ fn a_hundred_thousand_yields() {
             let switches = exact.switches(time);
             yields += switches.iter().filter(|now| now.sense != 0.0).count();
             exact = exact.at(time);
-            run.state.set_floor_force(Side::Left, 0, load * one.force);
+            run.state.set_floor_force(BuildingId::LEFT, 0, load * one.force);
             run.to(time);
             k += 1;
             let residual = run.energy().residual;
             assert!(residual.abs() < 1e-12, "r = {ratio}, {yields} yields: {residual:e}");
         }
-        let shown = run.storey(Side::Left, 0);
+        let shown = run.storey(BuildingId::LEFT, 0);
         assert!(shown.cumulative > 1e4 * exact.limit, "{shown:?}");
         let what = format!("r = {ratio}, {yields} yields");
         assert_close(shown.cumulative, exact.cumulative, 1e-11, &what);
@@ -110,7 +110,7 @@ fn a_hundred_thousand_samples_each_of_which_yields() {
     let (mut last, mut least) = (0.0, f64::MAX);
     for k in 0..1000 {
         run.to(6.25 * f64::from(k + 1));
-        let shown = run.storey(Side::Left, 0);
+        let shown = run.storey(BuildingId::LEFT, 0);
         least = f64::min(least, shown.cumulative - last);
         last = shown.cumulative;
         assert!(run.energy().residual.abs() < 1e-12, "{:?}", run.energy());
@@ -151,9 +151,9 @@ fn noted_instants_are_the_corners_of_the_loops() {
         let is_corner = {
             run.to(time);
             (0..2).any(|i| {
-                let storey = run.storey(Side::Left, i);
-                let below = if i == 0 { 0.0 } else { run.displacement(Side::Left, 0) };
-                let drift = run.displacement(Side::Left, i) - below;
+                let storey = run.storey(BuildingId::LEFT, i);
+                let below = if i == 0 { 0.0 } else { run.displacement(BuildingId::LEFT, 0) };
+                let drift = run.displacement(BuildingId::LEFT, i) - below;
                 let line = |sign: f64| ratio[i] * stiffness[i] * drift + sign * (1.0 - ratio[i]) * force[i];
                 [1.0, -1.0].iter().any(|sign| (storey.shear - line(*sign)).abs() <= 1e-12 * force[i])
             })

@@ -3,7 +3,7 @@
 use crate::bilinear::Oscillator;
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::record::Record;
 use pounding::scene::{Scene, Yielding};
 use std::f64::consts::PI;
@@ -47,11 +47,11 @@ impl InFirstMode {
 
     fn assert_moves_like(&self, run: &Run, exact: &Oscillator, size: f64, what: &str) {
         for (i, shape) in self.shape.iter().enumerate() {
-            let (u, v) = (run.displacement(Side::Left, i), run.velocity(Side::Left, i));
+            let (u, v) = (run.displacement(BuildingId::LEFT, i), run.velocity(BuildingId::LEFT, i));
             let error =
                 ((u - shape * exact.drift()).abs() / size).max((v - shape * exact.rate).abs() / (size * self.w));
             assert!(error < 1e-11, "{what}, floor {i} at {} s: {u:e}, {v:e}, off by {error:.1e}", exact.time);
-            let shown = run.storey(Side::Left, i);
+            let shown = run.storey(BuildingId::LEFT, i);
             let error = (shown.plastic - self.share(i) * exact.plastic).abs() / size;
             assert!(error < 1e-11, "{what}, storey {i} at {} s: {shown:?}, off by {error:.1e}", exact.time);
             let error = (shown.cumulative - self.share(i) * exact.cumulative).abs() / (size + exact.cumulative);
@@ -137,20 +137,20 @@ const CONTACT: &str = "[[contact]]\nleft_floor = 3\nright_floor = 3\ngap = 0.02\
 #[test]
 fn identical_buildings_yield_alike_and_never_meet() {
     let mut scene = frames(&CONTACT.replace("0.02", "1e-9"));
-    scene.right = scene.left.clone();
-    scene.right.yielding = Some(Yielding::new(vec![2e5, 1.5e5, f64::INFINITY], vec![0.05, 0.0, 0.1]));
+    scene.buildings[1] = scene.buildings[0].clone();
+    scene.buildings[1].yielding = Some(Yielding::new(vec![2e5, 1.5e5, f64::INFINITY], vec![0.05, 0.0, 0.1]));
     let mut run = Run::new(&scene, Some(&shaking()));
     for k in 1..=600 {
         run.to(0.01 * f64::from(k));
         for i in 0..3 {
-            let (one, other) = (run.storey(Side::Left, i), run.storey(Side::Right, i));
+            let (one, other) = (run.storey(BuildingId::LEFT, i), run.storey(BuildingId::RIGHT, i));
             assert!((one.plastic - other.plastic).abs() < 1e-14, "{one:?}, {other:?}");
             assert!((one.cumulative - other.cumulative).abs() < 1e-14, "{one:?}, {other:?}");
             assert_eq!(one.sense, other.sense);
-            let apart = (run.displacement(Side::Left, i) - run.displacement(Side::Right, i)).abs();
+            let apart = (run.displacement(BuildingId::LEFT, i) - run.displacement(BuildingId::RIGHT, i)).abs();
             assert!(apart < 1e-15, "{apart:e} m");
         }
     }
     assert_eq!(run.point.impacts, 0);
-    assert!(run.storey(Side::Left, 0).cumulative > 1e-3);
+    assert!(run.storey(BuildingId::LEFT, 0).cumulative > 1e-3);
 }

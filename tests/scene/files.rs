@@ -29,7 +29,7 @@ fn the_example_loads_with_its_record() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/feup.toml");
     let (scene, record) = scene::load(&path).unwrap();
     let record = record.unwrap();
-    assert_eq!((scene.left.mass.len(), scene.right.mass.len(), scene.contacts.len()), (2, 3, 2));
+    assert_eq!((scene.buildings[0].mass.len(), scene.buildings[1].mass.len(), scene.contacts.len()), (2, 3, 2));
     // As the header of the record says.
     assert_eq!((record.times.len(), record.peak()), (1560, 3.12656));
     assert_eq!((record.times[102], record.accelerations[102]), (2.04, -3.12656));

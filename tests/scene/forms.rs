@@ -11,14 +11,14 @@ fn every_key_arrives() {
     assert_eq!(scene.name, "TwoFrames");
     assert_eq!(scene.description, "a test");
     assert_eq!(scene.stop_time, Some(20.0));
-    assert_eq!(scene.left.mass, [3.0, 4.0]);
-    assert_eq!(scene.left.stiffness, Stiffness::Shear(vec![2910.0, 2920.0]));
-    assert_eq!(scene.left.damping, Damping::Ratio(0.01));
-    assert_eq!(scene.left.initial_displacement, [0.0, 0.0]);
-    assert_eq!(scene.left.initial_velocity, [0.0, 0.0]);
-    assert_eq!(scene.right.damping, Damping::Rayleigh { ratio: 0.05, modes: [1, 3] });
-    assert_eq!(scene.right.initial_displacement, [0.0, 0.001, 0.002]);
-    assert_eq!(scene.right.initial_velocity, [0.0, 0.1, 0.2]);
+    assert_eq!(scene.buildings[0].mass, [3.0, 4.0]);
+    assert_eq!(scene.buildings[0].stiffness, Stiffness::Shear(vec![2910.0, 2920.0]));
+    assert_eq!(scene.buildings[0].damping, Damping::Ratio(0.01));
+    assert_eq!(scene.buildings[0].initial_displacement, [0.0, 0.0]);
+    assert_eq!(scene.buildings[0].initial_velocity, [0.0, 0.0]);
+    assert_eq!(scene.buildings[1].damping, Damping::Rayleigh { ratio: 0.05, modes: [1, 3] });
+    assert_eq!(scene.buildings[1].initial_displacement, [0.0, 0.001, 0.002]);
+    assert_eq!(scene.buildings[1].initial_velocity, [0.0, 0.1, 0.2]);
     assert_eq!(scene.ground.record, None);
     assert!(scene.floor_forces && scene.energy);
     let [first, second] = scene.contacts.as_slice() else { panic!("two contacts") };
@@ -70,7 +70,10 @@ fn every_damping_formula_is_read_by_its_name() {
 fn what_is_left_out_has_its_default_and_whole_numbers_are_numbers() {
     let scene = Scene::from_toml(SHORT).unwrap();
     assert_eq!((scene.description.as_str(), scene.stop_time), ("", None));
-    assert_eq!((scene.left.mass.as_slice(), &scene.left.stiffness), ([1.0].as_slice(), &Stiffness::Shear(vec![2.0])));
+    assert_eq!(
+        (scene.buildings[0].mass.as_slice(), &scene.buildings[0].stiffness),
+        ([1.0].as_slice(), &Stiffness::Shear(vec![2.0]))
+    );
     assert_eq!((scene.ground.record, scene.ground.scaling), (None, Scaling::Scale(1.0)));
     assert!(!scene.floor_forces && !scene.restoring_corrections && !scene.energy && scene.contacts.is_empty());
     let corrected = Scene::from_toml(&format!("{SHORT}\n[inputs]\nrestoring_corrections = true\n")).unwrap();
@@ -80,15 +83,16 @@ fn what_is_left_out_has_its_default_and_whole_numbers_are_numbers() {
     assert!(!other.peaks && other.numbers_only && !other.energy);
     assert_eq!((scene.solver.relative_tolerance, scene.solver.min_approach_velocity), (1e-12, 1e-4));
     let hexadecimal = Scene::from_toml(&SHORT.replacen("[1]", "[0x1F]", 1)).unwrap();
-    assert_eq!(hexadecimal.left.mass, [31.0]);
+    assert_eq!(hexadecimal.buildings[0].mass, [31.0]);
 }
 
 #[test]
 fn every_form_of_stiffness_damping_and_ground() {
     let matrix = vec![vec![4.0, -1.0], vec![-1.0, 3.0]];
     let scene = Scene::from_toml(&edited("stiffness = [2910.0, 2920.0]", "stiffness_matrix = [[4, -1], [-1, 3]]"));
-    assert_eq!(scene.unwrap().left.stiffness, Stiffness::Matrix(matrix.clone()));
-    let damping = |form: &str| Scene::from_toml(&edited("{ ratio = 0.01 }", form)).unwrap().left.damping;
+    assert_eq!(scene.unwrap().buildings[0].stiffness, Stiffness::Matrix(matrix.clone()));
+    let damping =
+        |form: &str| Scene::from_toml(&edited("{ ratio = 0.01 }", form)).unwrap().buildings[0].damping.clone();
     assert_eq!(damping("{ ratios = [0.0, 0.02] }"), Damping::Ratios(vec![0.0, 0.02]));
     let rayleigh = Damping::Rayleigh { ratio: 0.05, modes: [2, 1] };
     assert_eq!(damping("{ rayleigh = { ratio = 0.05, modes = [2, 1] } }"), rayleigh);

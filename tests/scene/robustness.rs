@@ -1,7 +1,7 @@
 //! Rubbish is refused, not fatal.
 
 use super::{SCENE, messages};
-use pounding::scene::{Damping, Face, Scene, Side, Stiffness};
+use pounding::scene::{BuildingId, Damping, Face, Scene, Stiffness};
 use proptest::prelude::*;
 
 /// Pieces of TOML that are likely to reach far into the reader.
@@ -98,13 +98,13 @@ proptest! {
         modes in any::<[usize; 2]>(), floor in any::<usize>(), gap in any_number(),
     ) {
         let mut scene = Scene::from_toml(SCENE).unwrap();
-        scene.left.mass = mass.clone();
-        scene.left.stiffness = Stiffness::Matrix(matrix);
-        scene.left.damping = Damping::Matrix(damping);
-        scene.right.mass = mass;
-        scene.right.stiffness = Stiffness::Shear(stiffness);
-        scene.right.damping = Damping::Rayleigh { ratio: gap, modes };
-        scene.contacts[0].left = Face::Floor(Side::Left, floor);
+        scene.buildings[0].mass = mass.clone();
+        scene.buildings[0].stiffness = Stiffness::Matrix(matrix);
+        scene.buildings[0].damping = Damping::Matrix(damping);
+        scene.buildings[1].mass = mass;
+        scene.buildings[1].stiffness = Stiffness::Shear(stiffness);
+        scene.buildings[1].damping = Damping::Rayleigh { ratio: gap, modes };
+        scene.contacts[0].left = Face::Floor(BuildingId::LEFT, floor);
         scene.contacts[0].gap = gap;
         if let Err(error) = scene.check() {
             prop_assert!(!error.problems.is_empty());

@@ -3,7 +3,7 @@
 use super::{SHORT, edited, messages};
 use crate::two_and_three_storeys::{RECORD_SCENE, RICH, SCENE as DRIVEN};
 use pounding::contact::LawKind;
-use pounding::engine::{Episode, Model, Output, Point, Side};
+use pounding::engine::{BuildingId, Episode, Model, Output, Point};
 use pounding::scene::{Package, PackagedRecord, Scene, Units, law_key};
 use pounding::variables::{Parameter, Settings, Value};
 use proptest::prelude::*;
@@ -80,9 +80,9 @@ fn every_number_is_the_same_double() {
     for &law in LawKind::ALL {
         for (stiffness, damping) in [(SHEAR, RATIO), (MATRIX, RATIO), (SHEAR, DASHPOTS), (MATRIX, DASHPOTS)] {
             let [si, kn_t] = read_both(&frames(stiffness, damping, law));
-            assert_eq!(si.left.mass, kn_t.left.mass);
-            assert_eq!(si.left.stiffness, kn_t.left.stiffness);
-            assert_eq!(si.left.damping, kn_t.left.damping);
+            assert_eq!(si.buildings[0].mass, kn_t.buildings[0].mass);
+            assert_eq!(si.buildings[0].stiffness, kn_t.buildings[0].stiffness);
+            assert_eq!(si.buildings[0].damping, kn_t.buildings[0].damping);
             assert_eq!(si.contacts, kn_t.contacts);
             assert_eq!(si, kn_t);
         }
@@ -94,7 +94,7 @@ fn every_number_is_the_same_double() {
     let yielding =
         frames(&format!("{SHEAR}\nyield_force = [13.7, inf]\npost_yield_ratio = 0.031"), RATIO, LawKind::Linear);
     let [si, kn_t] = read_both(&yielding);
-    assert_eq!(si.left.yielding.as_ref().unwrap().force, [13.7, f64::INFINITY]);
+    assert_eq!(si.buildings[0].yielding.as_ref().unwrap().force, [13.7, f64::INFINITY]);
     assert_eq!(si, kn_t);
 }
 
@@ -104,7 +104,7 @@ fn whole_numbers_of_any_base_are_numbers() {
     for (text, kilograms) in
         [("[2]", 2000.0), ("[0x1F]", 31e3), ("[1_0]", 1e4), ("[1_0.5_0]", 10_500.0), ("[+2E-3]", 2.0)]
     {
-        assert_eq!(masses(text).unwrap().left.mass, [kilograms], "{text}");
+        assert_eq!(masses(text).unwrap().buildings[0].mass, [kilograms], "{text}");
     }
 }
 
@@ -116,7 +116,7 @@ proptest! {
             let mass = format!("[{digits}e{power}]");
             Scene::from_toml(&format!("units = \"{units}\"\n{}", SHORT.replacen("[1]", &mass, 1))).unwrap()
         };
-        let [si, kn_t] = [mass("SI", point), mass("kN-t", point - 3)].map(|scene| scene.left.mass[0]);
+        let [si, kn_t] = [mass("SI", point), mass("kN-t", point - 3)].map(|scene| scene.buildings[0].mass[0]);
         prop_assert_eq!(si.to_bits(), kn_t.to_bits());
         prop_assert_eq!(Units::Si.written(si).to_bits(), si.to_bits());
     }
@@ -138,7 +138,7 @@ fn run(scene: &Scene) -> Vec<u64> {
         let mut end = |episode: &Episode| seen.push(episode.peak_force.to_bits());
         model.advance(&mut state, 0.1 * f64::from(k), &mut end).unwrap();
         let now = model.observe(&state, &mut point);
-        for (side, floor) in [(Side::Left, 0), (Side::Left, 1)] {
+        for (side, floor) in [(BuildingId::LEFT, 0), (BuildingId::LEFT, 1)] {
             seen.push(now.read(Output::Displacement(side, floor)).to_bits());
         }
         let contact = now.contact(0);
@@ -285,11 +285,11 @@ fn units_that_there_are_not() {
 fn parameters_are_in_si_units() {
     let scene = Scene::from_toml(&in_kn_t(DRIVEN)).unwrap();
     let mut settings = Settings::new(scene, None);
-    assert_eq!(settings.read(Parameter::Mass(Side::Left, 0)), Value::Real(3.65));
-    settings.write(Parameter::Mass(Side::Left, 0), Value::Real(-3.0)).unwrap();
+    assert_eq!(settings.read(Parameter::Mass(BuildingId::LEFT, 0)), Value::Real(3.65));
+    settings.write(Parameter::Mass(BuildingId::LEFT, 0), Value::Real(-3.0)).unwrap();
     let error = settings.check().unwrap_err().to_string();
     assert_eq!(error, "left.mass[1] = -3.0: expected a finite mass > 0 kg");
-    settings.write(Parameter::Mass(Side::Left, 0), Value::Real(3.65e6)).unwrap();
+    settings.write(Parameter::Mass(BuildingId::LEFT, 0), Value::Real(3.65e6)).unwrap();
     settings.check().unwrap();
     let warnings = settings.warnings();
     assert_eq!((warnings[0].path.as_str(), warnings[0].value.as_str()), ("left.mass[1]", "3.65e6"));

@@ -122,6 +122,6 @@ fn a_building_grows_and_shrinks() {
     assert_eq!(shrunk, SCENE);
     let left = after("left.storeys", json!(3));
     let scene = pounding::scene::Scene::from_toml(&left).unwrap();
-    assert_eq!((scene.left.mass.len(), scene.contacts.len()), (3, 1));
+    assert_eq!((scene.buildings[0].mass.len(), scene.contacts.len()), (3, 1));
     assert!(left.contains("\n  1000,\n  1000,\n]"), "{left}");
 }

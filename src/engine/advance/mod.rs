@@ -15,14 +15,14 @@ use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
 use crate::engine::yielding::element::ElementOf;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// The collapse of a storey, which ends a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Collapse {
     /// Its building.
-    pub side: Side,
+    pub building: BuildingId,
     /// Counted from 0.
     pub storey: usize,
     /// s.
@@ -101,7 +101,7 @@ impl Model {
     #[cold]
     fn collapse_of(&self, element: usize, time: f64) -> Option<Collapse> {
         match self.system.elements[element].place {
-            ElementOf::Storey(side, storey) => Some(Collapse { side, storey, time }),
+            ElementOf::Storey(id, storey) => Some(Collapse { building: id, storey, time }),
             ElementOf::Link(_) => None,
         }
     }

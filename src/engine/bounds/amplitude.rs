@@ -46,7 +46,7 @@ const CHORD: f64 = 0.414_213_562_4;
 /// How fast the modes can change; constant during a run.
 #[derive(Debug)]
 pub struct ModeRates {
-    /// The modes of both buildings, in blocks.
+    /// The modes of all buildings, in blocks.
     blocks: Vec<BlockRates>,
     /// What each mode's amplitude gains at most per unit of cumulative absolute velocity (integral of |ground
     /// acceleration|), kg^1/2: |participation|, where damping couples modes that of all together.

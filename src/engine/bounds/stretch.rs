@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Margin for rounding, relative to the terms of an amplitude.
 pub const MARGIN: f64 = 1e-12;
 
-/// A flight of both buildings, or a part of one.
+/// A flight of all buildings, or a part of one.
 pub struct Stretch<'a> {
     /// q and v of all modes at the start.
     pub start: Motion<'a>,

@@ -1,8 +1,9 @@
 //! What a master sets, held or linear in time until it sets it again: the ground acceleration where there is no record, and
 //! what it pushes on the buildings with: forces on the floors, and corrections of what the buildings resist with.
 
+use crate::engine::excitation::first_floors::FirstFloors;
 use crate::scene::Scene;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 use serde::{Deserialize, Serialize};
 
 /// An input: a master sets it at any time.
@@ -12,10 +13,10 @@ pub enum Input {
     /// Ground acceleration, m/s2; acts where the scene has no record.
     GroundAcceleration,
     /// Force on a floor, counted from 0, N, positive to the right; acts where the scene has floor forces.
-    Force(Side, usize),
+    Force(BuildingId, usize),
     /// By how much a storey of a shear building, or a floor of one with a stiffness matrix, counted from 0, resists
     /// with less than its stiffness says, N; acts where the scene has restoring corrections.
-    Correction(Side, usize),
+    Correction(BuildingId, usize),
 }
 
 /// What a master pushes on the buildings with.
@@ -36,43 +37,36 @@ impl Push {
 pub struct Inputs {
     /// Ground acceleration, m/s2; used where there is no record.
     pub(in crate::engine) ground_acceleration: LinearInput,
-    /// Forces on the floors, N, positive to the right: left floors, then right floors; empty without floor forces.
+    /// Forces on the floors, N, positive to the right: building by building from left to right; empty without floor forces.
     pub(in crate::engine) floor_forces: Vec<LinearInput>,
     /// Corrections of storeys, or floors, N, in the same order; empty without corrections.
     pub(in crate::engine) corrections: Vec<LinearInput>,
-    /// Number of floors of the left building.
-    pub(in crate::engine) left_floors: usize,
+    /// Where those of each building begin among these.
+    pub(in crate::engine) first: FirstFloors,
 }
 
 impl Inputs {
     /// Those of a scene: all 0, until they are set.
     pub fn new(scene: &Scene) -> Inputs {
-        let floors = [&scene.left, &scene.right].map(|building| building.mass.len());
-        Inputs::of(floors, scene.floor_forces, scene.restoring_corrections)
+        let floors = scene.buildings.iter().map(|building| building.mass.len());
+        Inputs::of(&floors.collect::<Vec<_>>(), scene.floor_forces, scene.restoring_corrections)
     }
 
     /// Those of buildings with so many floors, with forces on them and corrections or without.
-    pub(in crate::engine) fn of([left, right]: [usize; 2], has_forces: bool, has_corrections: bool) -> Inputs {
-        let lines = |exist: bool| vec![LinearInput::default(); if exist { left + right } else { 0 }];
+    pub(in crate::engine) fn of(floors: &[usize], has_forces: bool, has_corrections: bool) -> Inputs {
+        let lines = |exist: bool| vec![LinearInput::default(); if exist { floors.iter().sum() } else { 0 }];
         let (floor_forces, corrections) = (lines(has_forces), lines(has_corrections));
-        Inputs { ground_acceleration: LinearInput::default(), floor_forces, corrections, left_floors: left }
-    }
-
-    /// Index of a floor's force, and of a storey's correction, if there can be one on such a floor.
-    fn place(&self, side: Side, floor: usize) -> Option<usize> {
-        match side {
-            Side::Left => (floor < self.left_floors).then_some(floor),
-            Side::Right => Some(self.left_floors + floor),
-        }
+        let first = FirstFloors::of(floors);
+        Inputs { ground_acceleration: LinearInput::default(), floor_forces, corrections, first }
     }
 
     /// An input as a function of time; 0 where there is no such input.
     pub fn get(&self, input: Input) -> LinearInput {
-        let of = |lines: &[LinearInput], side, floor| self.place(side, floor).and_then(|i| lines.get(i).copied());
+        let of = |lines: &[LinearInput], id, floor| self.first.place(id, floor).and_then(|i| lines.get(i).copied());
         match input {
             Input::GroundAcceleration => Some(self.ground_acceleration),
-            Input::Force(side, floor) => of(&self.floor_forces, side, floor),
-            Input::Correction(side, storey) => of(&self.corrections, side, storey),
+            Input::Force(id, floor) => of(&self.floor_forces, id, floor),
+            Input::Correction(id, storey) => of(&self.corrections, id, storey),
         }
         .unwrap_or_default()
     }
@@ -90,8 +84,8 @@ impl Inputs {
     fn change(&mut self, input: Input, change: impl FnOnce(&mut LinearInput)) {
         let line = match input {
             Input::GroundAcceleration => Some(&mut self.ground_acceleration),
-            Input::Force(side, floor) => self.place(side, floor).and_then(|i| self.floor_forces.get_mut(i)),
-            Input::Correction(side, storey) => self.place(side, storey).and_then(|i| self.corrections.get_mut(i)),
+            Input::Force(id, floor) => self.first.place(id, floor).and_then(|i| self.floor_forces.get_mut(i)),
+            Input::Correction(id, storey) => self.first.place(id, storey).and_then(|i| self.corrections.get_mut(i)),
         };
         if let Some(line) = line {
             change(line);
@@ -119,7 +113,7 @@ impl Inputs {
 
     /// The values set so far hold for this time, s.
     pub fn move_to(&mut self, time: f64) {
-        let Inputs { ground_acceleration, floor_forces, corrections, left_floors: _ } = self;
+        let Inputs { ground_acceleration, floor_forces, corrections, first: _ } = self;
         let all = floor_forces.iter_mut().chain(corrections).chain([ground_acceleration]);
         all.for_each(|input| input.since = time);
     }
@@ -136,13 +130,13 @@ impl Inputs {
 
     /// Whether there are as many as of a scene whose inputs `others` are.
     pub(in crate::engine) fn are_as_many_as(&self, others: &Inputs) -> bool {
-        let sizes = |of: &Inputs| [of.floor_forces.len(), of.corrections.len(), of.left_floors];
-        sizes(self) == sizes(others)
+        let sizes = |of: &Inputs| [of.floor_forces.len(), of.corrections.len()];
+        self.first == others.first && sizes(self) == sizes(others)
     }
 
     /// All of their numbers.
     pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Inputs { ground_acceleration, floor_forces, corrections, left_floors: _ } = self;
+        let Inputs { ground_acceleration, floor_forces, corrections, first: _ } = self;
         floor_forces.iter().chain(corrections).chain([ground_acceleration]).flat_map(|line| {
             let &LinearInput { value, slope, since } = line;
             [value, slope, since]
@@ -227,9 +221,9 @@ mod tests {
     #[test]
     fn an_input_that_there_is_not_changes_no_other() {
         for has in [true, false] {
-            let mut inputs = Inputs::of([1, 2], has, has);
-            for (side, floor) in [(Side::Left, 1), (Side::Right, 2)] {
-                for input in [Input::Force(side, floor), Input::Correction(side, floor)] {
+            let mut inputs = Inputs::of(&[1, 2], has, has);
+            for (id, floor) in [(BuildingId::LEFT, 1), (BuildingId::RIGHT, 2)] {
+                for input in [Input::Force(id, floor), Input::Correction(id, floor)] {
                     inputs.set(input, 3.0, 0.0);
                     inputs.set_rate(input, 3.0, 0.0);
                     assert_eq!(inputs.get(input), LinearInput::default());

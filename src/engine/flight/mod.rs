@@ -1,4 +1,4 @@
-//! Flight: no floors touch and no element yields, and both buildings move by their exact modal solution until the
+//! Flight: no floors touch and no element yields, and all buildings move by their exact modal solution until the
 //! segment ends, two floors meet or an element yields.
 
 pub mod accounted;

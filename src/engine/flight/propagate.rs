@@ -1,4 +1,4 @@
-//! The exact response of both buildings to a linear load.
+//! The exact response of all buildings to a linear load.
 
 use crate::engine::base::Base;
 use crate::engine::system::System;

@@ -66,7 +66,7 @@ impl Instant<'_> {
 
     /// -g lean (rate of the lean) of all storeys that lean, W, and its rate.
     fn gravity_rates(&self, rates: &PointRates) -> Rates {
-        self.model.system.leaning().fold([0.0; 2], |sums, (place, g)| {
+        self.model.system.leaning.iter().fold([0.0; 2], |sums, &(place, g)| {
             let (lean, [rate, second]) = (self.lean(place), self.lean_rates(rates, place));
             [sums[0] - g * lean * rate, sums[1] - g * (rate * rate + lean * second)]
         })

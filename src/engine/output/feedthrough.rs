@@ -35,7 +35,7 @@ impl Instant<'_> {
     /// on pressing.
     ///
     /// ```
-    /// use pounding::engine::{Input, Model, Output, Point, Response, Side};
+    /// use pounding::engine::{BuildingId, Input, Model, Output, Point, Response};
     ///
     /// # let scene = pounding::scene::Scene::from_toml(
     /// #     "name = \"Mast\"\ninputs = { floor_forces = true }\n\
@@ -44,9 +44,9 @@ impl Instant<'_> {
     /// let model = Model::new(&scene, None)?;
     /// let (state, mut point, mut response) = (model.start(0.0), Point::default(), Response::default());
     /// // 500 N on a floor of 1 t.
-    /// model.observe(&state, &mut point).respond([(Input::Force(Side::Left, 0), 500.0)], &mut response);
-    /// assert_eq!(model.response_of(&response, Output::Acceleration(Side::Left, 0)), 0.5);
-    /// assert_eq!(model.response_of(&response, Output::Velocity(Side::Left, 0)), 0.0);
+    /// model.observe(&state, &mut point).respond([(Input::Force(BuildingId::LEFT, 0), 500.0)], &mut response);
+    /// assert_eq!(model.response_of(&response, Output::Acceleration(BuildingId::LEFT, 0)), 0.5);
+    /// assert_eq!(model.response_of(&response, Output::Velocity(BuildingId::LEFT, 0)), 0.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn respond(&self, changes: impl IntoIterator<Item = (Input, f64)>, response: &mut Response) {
@@ -69,12 +69,12 @@ impl Instant<'_> {
                     let shares = system.participation(Coordinates::Floors);
                     accelerations.iter_mut().zip(shares).for_each(|(floor, share)| *floor -= share * change);
                 }
-                Input::Force(side, floor) => {
-                    let lane = floors.lane(side as usize, floor);
+                Input::Force(id, floor) => {
+                    let lane = floors.lane(id, floor);
                     accelerations[lane] += change * floors.inverse_mass(lane);
                 }
-                Input::Correction(side, storey) => {
-                    if let Some(number) = system.number_of_correction((side, storey)) {
+                Input::Correction(id, storey) => {
+                    if let Some(number) = system.number_of_correction((id, storey)) {
                         system.corrected_rows[number].push(Coordinates::Floors, change, accelerations);
                         corrections[number] += change;
                     }
@@ -109,21 +109,21 @@ impl Model {
     /// The change of an output in a response, in its unit; 0 of all that follows from the motion.
     pub fn response_of(&self, response: &Response, output: Output) -> f64 {
         match output {
-            Output::Acceleration(side, floor) => {
-                response.accelerations[self.system.structure.floors.lane(side as usize, floor)] + response.ground
+            Output::Acceleration(id, floor) => {
+                response.accelerations[self.system.structure.floors.lane(id, floor)] + response.ground
             }
-            Output::Foundation(side, FoundationOutput::Acceleration) => {
-                let lane = self.system.structure.floors.lane_of(side, Place::Foundation);
+            Output::Foundation(id, FoundationOutput::Acceleration) => {
+                let lane = self.system.structure.floors.lane_of(id, Place::Foundation);
                 lane.map_or(0.0, |lane| response.accelerations[lane] + response.ground)
             }
             Output::Contact(p, ContactOutput::Force) => response.reactions[p],
-            Output::BaseShear(side) => {
+            Output::BaseShear(id) => {
                 let of_side =
-                    self.system.corrections.iter().zip(&response.corrections).filter(|(of, _)| of.side == side);
+                    self.system.corrections.iter().zip(&response.corrections).filter(|(of, _)| of.building == id);
                 -of_side.fold(0.0, |sum, (of, change)| sum + of.on_base() * change)
             }
-            Output::OfYielding(YieldingOf::Shear, side, storey) => {
-                let number = self.system.number_of_correction((side, storey));
+            Output::OfYielding(YieldingOf::Shear, id, storey) => {
+                let number = self.system.number_of_correction((id, storey));
                 number.map_or(0.0, |number| -response.corrections[number])
             }
             _ => 0.0,

@@ -6,7 +6,7 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::Accelerations;
 use crate::engine::output::point::Point;
-use crate::structure::{Motion, Side};
+use crate::structure::{BuildingId, Motion};
 
 impl Point {
     /// Number of rows of the modal matrix that have been multiplied since this point was made; 0 where the motion is
@@ -45,19 +45,19 @@ impl<'a> Instant<'a> {
 
     /// Base shear, N: the force of the building on the ground.
     #[inline(never)]
-    pub(super) fn base_shear(&self, side: Side) -> f64 {
+    pub(super) fn base_shear(&self, id: BuildingId) -> f64 {
         let (Instant { model: Model { system, .. }, state, point }, motion) = (self, self.motion());
         let resisted = match point.coordinates {
             Coordinates::Modes => {
                 let at_rest = match point.elements.is_empty() {
                     true => 0.0,
-                    false => system.shear_at_rest(&point.elements, side, &point.rest),
+                    false => system.shear_at_rest(&point.elements, id, &point.rest),
                 };
-                system.structure.base_shear(side, motion.q, motion.v) + at_rest
+                system.structure.base_shear(id, motion.q, motion.v) + at_rest
             }
-            Coordinates::Floors => system.structure.floors.base_shear(side as usize, &self.accelerations().resisted),
+            Coordinates::Floors => system.structure.floors.base_shear(id, &self.accelerations().resisted),
         };
-        resisted - system.correction_of_base(&state.inputs, side, |line| line.at(state.time))
+        resisted - system.correction_of_base(&state.inputs, id, |line| line.at(state.time))
     }
 
     /// The accelerations at the observed time.

@@ -3,14 +3,14 @@
 use crate::engine::model::Model;
 use crate::engine::output::outputs::{FoundationOutput, LinkOutput, Output};
 use crate::engine::quantities::rows::PeakOf;
-use crate::structure::{Side, SoilRows};
+use crate::structure::{BuildingId, SoilRows};
 
 impl Model {
     /// The output of a spring of the soil that a quantity of a foundation is; none of an acceleration, and of a motion that the
     /// foundation has not.
-    pub(super) fn soil_output(&self, side: Side, of: FoundationOutput) -> Option<Output> {
+    pub(super) fn soil_output(&self, id: BuildingId, of: FoundationOutput) -> Option<Output> {
         use FoundationOutput as F;
-        let SoilRows { sway, rocking } = self.system.structure.soil[side as usize];
+        let SoilRows { sway, rocking } = self.system.structure.soil[id.index()];
         let spring = match of {
             F::Displacement | F::Velocity | F::Force | F::PeakDisplacement | F::PeakForce => sway?,
             F::Rotation | F::RotationRate | F::Moment | F::PeakRotation | F::PeakMoment => rocking?,

@@ -9,7 +9,7 @@ use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
 use crate::scene::Place;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// The solution at one time, as [`Model::observe`] shows it.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,7 @@ impl<'a> Instant<'a> {
     /// energy account or peaks, is 0.
     ///
     /// ```
-    /// use pounding::engine::{Model, Output, PeakOf, Point, Side};
+    /// use pounding::engine::{BuildingId, Model, Output, PeakOf, Point};
     ///
     /// // A mast that swings with 10 rad/s and begins with 0.1 m/s.
     /// # let scene = pounding::scene::Scene::from_toml(
@@ -59,8 +59,8 @@ impl<'a> Instant<'a> {
     /// let (mut state, mut point) = (model.start(0.0), Point::default());
     /// model.advance(&mut state, 2.0, &mut |_| ())?;
     /// let now = model.observe(&state, &mut point);
-    /// assert!((now.read(Output::Displacement(Side::Left, 0)) - 0.01 * f64::sin(20.0)).abs() < 1e-12);
-    /// assert!((now.read(Output::Peak(PeakOf::Displacement(Side::Left, 0))) - 0.01).abs() < 1e-12);
+    /// assert!((now.read(Output::Displacement(BuildingId::LEFT, 0)) - 0.01 * f64::sin(20.0)).abs() < 1e-12);
+    /// assert!((now.read(Output::Peak(PeakOf::Displacement(BuildingId::LEFT, 0))) - 0.01).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -71,26 +71,26 @@ impl<'a> Instant<'a> {
         let Instant { model, state, point } = *self;
         match output {
             Output::GroundAcceleration => point.ground_acceleration,
-            Output::Displacement(side, floor) => self.displacement(self.lane(side, floor)),
-            Output::Velocity(side, floor) => self.velocity(self.lane(side, floor)),
-            Output::Acceleration(side, floor) => self.acceleration(self.lane(side, floor)),
-            Output::BaseShear(side) => self.base_shear(side),
+            Output::Displacement(id, floor) => self.displacement(self.lane(id, floor)),
+            Output::Velocity(id, floor) => self.velocity(self.lane(id, floor)),
+            Output::Acceleration(id, floor) => self.acceleration(self.lane(id, floor)),
+            Output::BaseShear(id) => self.base_shear(id),
             Output::Peak(of) => self.peak_shown(of),
-            Output::OfStorey(of, side, storey) => self.storey_peak(of, (side, storey)),
-            Output::OfYielding(of, side, storey) => self.of_yielding(of, (side, storey)),
-            Output::Yielding(side, storey) => self.yielding((side, storey)),
-            Output::Collapsed(side) => f64::from(model.collapse(state).is_some_and(|collapse| collapse.side == side)),
-            Output::CollapseTime(side) => {
-                let of_side = model.collapse(state).filter(|collapse| collapse.side == side);
+            Output::OfStorey(of, id, storey) => self.storey_peak(of, (id, storey)),
+            Output::OfYielding(of, id, storey) => self.of_yielding(of, (id, storey)),
+            Output::Yielding(id, storey) => self.yielding((id, storey)),
+            Output::Collapsed(id) => f64::from(model.collapse(state).is_some_and(|collapse| collapse.building == id)),
+            Output::CollapseTime(id) => {
+                let of_side = model.collapse(state).filter(|collapse| collapse.building == id);
                 of_side.map_or(-1.0, |collapse| collapse.time)
             }
             Output::Contact(p, ContactOutput::Force) if !state.base.contacts[p].in_contact() => 0.0,
             Output::Contact(p, of) => self.contact(p).get(of),
             Output::Link(l, of) => self.link(l, of),
-            Output::Foundation(side, FoundationOutput::Acceleration) => {
-                self.lane_of_foundation(side).map_or(0.0, |lane| self.acceleration(lane))
+            Output::Foundation(id, FoundationOutput::Acceleration) => {
+                self.lane_of_foundation(id).map_or(0.0, |lane| self.acceleration(lane))
             }
-            Output::Foundation(side, of) => model.soil_output(side, of).map_or(0.0, |output| self.read(output)),
+            Output::Foundation(id, of) => model.soil_output(id, of).map_or(0.0, |output| self.read(output)),
             Output::Impacts => point.impacts as f64,
             Output::Energy(of) => self.energy().unwrap_or_default().get(of),
         }
@@ -100,7 +100,7 @@ impl<'a> Instant<'a> {
     /// derivatives of this very instant.
     ///
     /// ```
-    /// use pounding::engine::{Model, Output, Point, PointRates, Side};
+    /// use pounding::engine::{BuildingId, Model, Output, Point, PointRates};
     ///
     /// # let scene = pounding::scene::Scene::from_toml(
     /// #     "name = \"Mast\"\n\
@@ -111,7 +111,7 @@ impl<'a> Instant<'a> {
     /// let now = model.observe(&state, &mut point);
     /// now.differentiate(&mut rates);
     /// // The acceleration of a floor with 0.1 m/s on a spring with k / m = 100 1/s2.
-    /// assert_eq!(now.rates(&rates, Output::Acceleration(Side::Left, 0)), [-10.0, 0.0]);
+    /// assert_eq!(now.rates(&rates, Output::Acceleration(BuildingId::LEFT, 0)), [-10.0, 0.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -120,23 +120,23 @@ impl<'a> Instant<'a> {
     pub fn rates(&self, rates: &PointRates, output: Output) -> Rates {
         match output {
             Output::GroundAcceleration => rates.ground_acceleration,
-            Output::Displacement(side, floor) => self.displacement_rates(rates, self.lane(side, floor)),
-            Output::Velocity(side, floor) => self.velocity_rates(rates, self.lane(side, floor)),
-            Output::Acceleration(side, floor) => self.acceleration_rates(rates, self.lane(side, floor)),
-            Output::BaseShear(side) => self.base_shear_rates(rates, side),
+            Output::Displacement(id, floor) => self.displacement_rates(rates, self.lane(id, floor)),
+            Output::Velocity(id, floor) => self.velocity_rates(rates, self.lane(id, floor)),
+            Output::Acceleration(id, floor) => self.acceleration_rates(rates, self.lane(id, floor)),
+            Output::BaseShear(id) => self.base_shear_rates(rates, id),
             Output::Peak(of) => self.peak_rates(rates, of),
-            Output::OfStorey(of, side, storey) => self.storey_peak_rates(rates, of, (side, storey)),
-            Output::OfYielding(of, side, storey) => match self.unused_drift(of, (side, storey)) {
-                Some(drift) => self.peak_rates(rates, PeakOf::Drift(side, storey)).map(|rate| rate / drift),
-                None => self.yielding_rates(rates, of, (side, storey)),
+            Output::OfStorey(of, id, storey) => self.storey_peak_rates(rates, of, (id, storey)),
+            Output::OfYielding(of, id, storey) => match self.unused_drift(of, (id, storey)) {
+                Some(drift) => self.peak_rates(rates, PeakOf::Drift(id, storey)).map(|rate| rate / drift),
+                None => self.yielding_rates(rates, of, (id, storey)),
             },
             Output::Contact(p, of) => rates.contacts[p][of],
             Output::Link(l, of) => self.link_rates(rates, l, of),
-            Output::Foundation(side, FoundationOutput::Acceleration) => {
-                self.lane_of_foundation(side).map_or([0.0; 2], |lane| self.acceleration_rates(rates, lane))
+            Output::Foundation(id, FoundationOutput::Acceleration) => {
+                self.lane_of_foundation(id).map_or([0.0; 2], |lane| self.acceleration_rates(rates, lane))
             }
-            Output::Foundation(side, of) => {
-                self.model.soil_output(side, of).map_or([0.0; 2], |output| self.rates(rates, output))
+            Output::Foundation(id, of) => {
+                self.model.soil_output(id, of).map_or([0.0; 2], |output| self.rates(rates, output))
             }
             Output::Energy(of) => rates.energy.unwrap_or_default()[of],
             // Held from one event to the next.
@@ -144,16 +144,16 @@ impl<'a> Instant<'a> {
         }
     }
 
-    fn lane(&self, side: Side, floor: usize) -> usize {
-        self.model.system.structure.floors.lane(side as usize, floor)
+    fn lane(&self, id: BuildingId, floor: usize) -> usize {
+        self.model.system.structure.floors.lane(id, floor)
     }
 
     /// That of a foundation; none of one that does not sway.
-    fn lane_of_foundation(&self, side: Side) -> Option<usize> {
-        self.model.system.structure.floors.lane_of(side, Place::Foundation)
+    fn lane_of_foundation(&self, id: BuildingId) -> Option<usize> {
+        self.model.system.structure.floors.lane_of(id, Place::Foundation)
     }
 
-    fn storey_peak_rates(&self, rates: &PointRates, of: StoreyPeak, place: (Side, usize)) -> Rates {
+    fn storey_peak_rates(&self, rates: &PointRates, of: StoreyPeak, place: (BuildingId, usize)) -> Rates {
         if of == StoreyPeak::ColumnForce {
             return self.hardest_on(place).map_or([0.0; 2], |(p, _)| rates.contacts[p][ContactOutput::PeakForce]);
         }
@@ -171,11 +171,11 @@ impl<'a> Instant<'a> {
     fn peak_rates(&self, rates: &PointRates, of: PeakOf) -> Rates {
         let of_output = |output| (self.read(output), self.rates(rates, output));
         let (value, [first, second]) = match of {
-            PeakOf::Displacement(side, floor) => of_output(Output::Displacement(side, floor)),
-            PeakOf::Drift(side, storey) => (self.drift((side, storey)), self.drift_rates(rates, (side, storey))),
-            PeakOf::Acceleration(side, floor) => of_output(Output::Acceleration(side, floor)),
-            PeakOf::BaseShear(side) => of_output(Output::BaseShear(side)),
-            PeakOf::StoreyShear(side, storey) => of_output(Output::OfYielding(YieldingOf::Shear, side, storey)),
+            PeakOf::Displacement(id, floor) => of_output(Output::Displacement(id, floor)),
+            PeakOf::Drift(id, storey) => (self.drift((id, storey)), self.drift_rates(rates, (id, storey))),
+            PeakOf::Acceleration(id, floor) => of_output(Output::Acceleration(id, floor)),
+            PeakOf::BaseShear(id) => of_output(Output::BaseShear(id)),
+            PeakOf::StoreyShear(id, storey) => of_output(Output::OfYielding(YieldingOf::Shear, id, storey)),
             PeakOf::LinkDisplacement(l) => of_output(Output::Link(l, LinkOutput::Displacement)),
             PeakOf::LinkForce(l) => of_output(Output::Link(l, LinkOutput::Force)),
         };

@@ -2,7 +2,7 @@
 
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 use std::ops::{Index, IndexMut};
 
 /// First and second derivative with respect to time.
@@ -15,31 +15,31 @@ pub enum Output {
     /// Ground acceleration, m/s2.
     GroundAcceleration,
     /// Displacement of a floor relative to the ground, m.
-    Displacement(Side, usize),
+    Displacement(BuildingId, usize),
     /// Velocity of a floor relative to the ground, m/s.
-    Velocity(Side, usize),
+    Velocity(BuildingId, usize),
     /// Absolute acceleration of a floor, m/s2.
-    Acceleration(Side, usize),
+    Acceleration(BuildingId, usize),
     /// Force of a building on the ground, N.
-    BaseShear(Side),
+    BaseShear(BuildingId),
     /// The largest magnitude so far.
     Peak(PeakOf),
     /// The largest so far of a quantity of a storey.
-    OfStorey(StoreyPeak, Side, usize),
+    OfStorey(StoreyPeak, BuildingId, usize),
     /// Of a storey that can yield.
-    OfYielding(YieldingOf, Side, usize),
+    OfYielding(YieldingOf, BuildingId, usize),
     /// The sense in which a storey yields now: 1 or -1, or 0 while it is elastic.
-    Yielding(Side, usize),
+    Yielding(BuildingId, usize),
     /// Whether a storey of a building has collapsed, which ends the run.
-    Collapsed(Side),
+    Collapsed(BuildingId),
     /// The time of that, s; -1 until then.
-    CollapseTime(Side),
+    CollapseTime(BuildingId),
     /// One contact.
     Contact(usize, ContactOutput),
     /// One link.
     Link(usize, LinkOutput),
     /// A foundation on soil.
-    Foundation(Side, FoundationOutput),
+    Foundation(BuildingId, FoundationOutput),
     /// Contact episodes begun so far, of all contacts.
     Impacts,
     /// One term of the energy account.

@@ -12,7 +12,7 @@ use crate::engine::output::instant::Instant;
 use crate::engine::output::outputs::{ContactOutput as C, ContactRates, Rates};
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::system::buffers::Buffers;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 impl Instant<'_> {
     /// Works out the derivatives with respect to time, of which [`Instant::rates`] reads; the memory of `rates` is
@@ -145,18 +145,16 @@ impl Instant<'_> {
     }
 
     /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
-    pub(super) fn base_shear_rates(&self, rates: &PointRates, side: Side) -> Rates {
+    pub(super) fn base_shear_rates(&self, rates: &PointRates, id: BuildingId) -> Rates {
         let Instant { model: Model { system, .. }, state, point } = *self;
         let PointRates { acceleration, jerk, resisted, .. } = rates;
-        let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.elements, side, motion);
+        let yielded = |motion: &[f64]| system.yielded_base_shear(point.coordinates, &point.elements, id, motion);
         let [first, second] = match point.coordinates {
             Coordinates::Modes => [(self.motion().v, &acceleration[..]), (acceleration, jerk)]
-                .map(|(motion, rate)| system.structure.base_shear(side, motion, rate) - yielded(motion)),
-            Coordinates::Floors => {
-                [0, 1].map(|order| system.structure.floors.base_shear(side as usize, &resisted[order]))
-            }
+                .map(|(motion, rate)| system.structure.base_shear(id, motion, rate) - yielded(motion)),
+            Coordinates::Floors => [0, 1].map(|order| system.structure.floors.base_shear(id, &resisted[order])),
         };
-        let corrected = system.correction_of_base(&state.inputs, side, LinearInput::slope);
+        let corrected = system.correction_of_base(&state.inputs, id, LinearInput::slope);
         [first - corrected, if rates.is_beginning { 0.0 } else { second }]
     }
 }

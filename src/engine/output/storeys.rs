@@ -7,11 +7,11 @@ use crate::engine::output::point_rates::PointRates;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::scene::{Place, Places};
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 impl<'a> Instant<'a> {
     /// The value of a storey's quantity; 0 where the scene does not have what it is made of.
-    pub(super) fn storey_peak(&self, of: StoreyPeak, place: (Side, usize)) -> f64 {
+    pub(super) fn storey_peak(&self, of: StoreyPeak, place: (BuildingId, usize)) -> f64 {
         if of == StoreyPeak::Shear && self.is_corrected(place) {
             return self.peak(PeakOf::StoreyShear(place.0, place.1));
         }
@@ -27,50 +27,50 @@ impl<'a> Instant<'a> {
     }
 
     /// Whether a storey can be corrected: then its shear is watched by itself.
-    pub(super) fn is_corrected(&self, place: (Side, usize)) -> bool {
+    pub(super) fn is_corrected(&self, place: (BuildingId, usize)) -> bool {
         self.model.system.number_of_correction(place).is_some()
     }
 
     /// Drift of a storey, m.
-    pub(super) fn drift(&self, (side, storey): (Side, usize)) -> f64 {
-        self.sum_of(side, self.places(side).drift(storey))
+    pub(super) fn drift(&self, (id, storey): (BuildingId, usize)) -> f64 {
+        self.sum_of(id, self.places(id).drift(storey))
     }
 
     /// Rates of a drift, m/s and m/s2.
-    pub(super) fn drift_rates(&self, rates: &PointRates, (side, storey): (Side, usize)) -> Rates {
-        self.rates_of_sum(rates, side, self.places(side).drift(storey))
+    pub(super) fn drift_rates(&self, rates: &PointRates, (id, storey): (BuildingId, usize)) -> Rates {
+        self.rates_of_sum(rates, id, self.places(id).drift(storey))
     }
 
     /// Lean of a storey, m: its drift, and by how much its foundation has turned.
-    pub(super) fn lean(&self, (side, storey): (Side, usize)) -> f64 {
-        self.sum_of(side, self.places(side).lean(storey))
+    pub(super) fn lean(&self, (id, storey): (BuildingId, usize)) -> f64 {
+        self.sum_of(id, self.places(id).lean(storey))
     }
 
     /// Rates of a lean, m/s and m/s2.
-    pub(super) fn lean_rates(&self, rates: &PointRates, (side, storey): (Side, usize)) -> Rates {
-        self.rates_of_sum(rates, side, self.places(side).lean(storey))
+    pub(super) fn lean_rates(&self, rates: &PointRates, (id, storey): (BuildingId, usize)) -> Rates {
+        self.rates_of_sum(rates, id, self.places(id).lean(storey))
     }
 
-    fn places(&self, side: Side) -> &'a Places {
-        self.model.system.structure.floors.places(side)
+    fn places(&self, id: BuildingId) -> &'a Places {
+        self.model.system.structure.floors.places(id)
     }
 
     /// The sum of some displacements of a building, each with its weight.
-    fn sum_of(&self, side: Side, weights: impl Iterator<Item = (Place, f64)>) -> f64 {
+    fn sum_of(&self, id: BuildingId, weights: impl Iterator<Item = (Place, f64)>) -> f64 {
         let floors = &self.model.system.structure.floors;
-        weights.filter_map(|(place, weight)| Some(weight * self.displacement(floors.lane_of(side, place)?))).sum()
+        weights.filter_map(|(place, weight)| Some(weight * self.displacement(floors.lane_of(id, place)?))).sum()
     }
 
-    fn rates_of_sum(&self, rates: &PointRates, side: Side, weights: impl Iterator<Item = (Place, f64)>) -> Rates {
+    fn rates_of_sum(&self, rates: &PointRates, id: BuildingId, weights: impl Iterator<Item = (Place, f64)>) -> Rates {
         let floors = &self.model.system.structure.floors;
         weights.fold([0.0; 2], |sum, (place, weight)| {
-            let of = floors.lane_of(side, place).map_or([0.0; 2], |lane| self.displacement_rates(rates, lane));
+            let of = floors.lane_of(id, place).map_or([0.0; 2], |lane| self.displacement_rates(rates, lane));
             [sum[0] + weight * of[0], sum[1] + weight * of[1]]
         })
     }
 
     /// The contact that has pressed hardest on the columns of a storey, and its largest force.
-    pub(super) fn hardest_on(&self, storey: (Side, usize)) -> Option<(usize, f64)> {
+    pub(super) fn hardest_on(&self, storey: (BuildingId, usize)) -> Option<(usize, f64)> {
         let contacts = (0..).zip(&self.model.storeys.struck).filter(|(_, struck)| **struck == Some(storey));
         let forces = contacts.map(|(p, _)| (p, self.contact(p).peak_force));
         forces.max_by(|(_, one), (_, other)| one.total_cmp(other))

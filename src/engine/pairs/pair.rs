@@ -8,7 +8,7 @@ use crate::engine::quantities::flight_row::FlightRow;
 use crate::scene::{Scene, Share};
 use crate::structure::{Motion, Structure};
 
-/// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of both buildings.
+/// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of the buildings.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair {
     /// Row of the Jacobian: penetration = row . q - gap, and a contact force F loads the motion with -row F.
@@ -24,7 +24,7 @@ impl Pair {
     /// A contact of the scene, with its masses and its row of the modal Jacobian.
     pub(crate) fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let shares: Vec<Share> = pair.row(scene).collect();
-        let row = WeightRow::of(structure, shares.iter().map(|share| (share.side, share.place, share.weight)));
+        let row = WeightRow::of(structure, shares.iter().map(|share| (share.building, share.place, share.weight)));
         Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene) }
     }
 

@@ -1,10 +1,10 @@
-//! A row of weights over the displacements of both buildings: how far two faces have come nearer, or the drift of what can
+//! A row of weights over the displacements of the buildings: how far two faces have come nearer, or the drift of what can
 //! yield. A force along the row acts on each of them with the same weight.
 
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
 use crate::scene::Place;
-use crate::structure::{MotionSeries, Side, Structure};
+use crate::structure::{BuildingId, MotionSeries, Structure};
 
 /// A row over modes, oscillators and floors alike. Its quantity is what it makes of a motion.
 #[derive(Clone, Debug)]
@@ -36,10 +36,13 @@ pub(crate) struct FloorShare {
 
 impl WeightRow {
     /// Of displacements of buildings, each with its weight.
-    pub(crate) fn of(structure: &Structure, places: impl Iterator<Item = (Side, Place, f64)> + Clone) -> WeightRow {
+    pub(crate) fn of(
+        structure: &Structure,
+        places: impl Iterator<Item = (BuildingId, Place, f64)> + Clone,
+    ) -> WeightRow {
         let mut modes = vec![0.0; structure.lanes];
-        places.clone().for_each(|(side, place, weight)| structure.add_force(side, place, weight, &mut modes));
-        let lane = |(side, place, weight)| Some((structure.floors.lane_of(side, place)?, weight));
+        places.clone().for_each(|(id, place, weight)| structure.add_force(id, place, weight, &mut modes));
+        let lane = |(id, place, weight)| Some((structure.floors.lane_of(id, place)?, weight));
         WeightRow::over(structure, modes, places.filter_map(lane))
     }
 

@@ -15,7 +15,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::structure::{LANES, Motion, Side};
+use crate::structure::{BuildingId, LANES, Motion};
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
 /// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
@@ -103,12 +103,12 @@ impl PeakFinder<'_> {
         self.find_floors(base.coordinates, (&base.rest, base.motion()), &mut room.start, &mut modal);
         room.modal = modal;
         let FloorRoom { start, pushes: [pushed, _], .. } = &work.peaks.floors;
-        for side in Side::BOTH {
-            for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
+        for id in self.system.structure.ids() {
+            for (floor, lane) in self.system.structure.floors.lanes_of(id).enumerate() {
                 let now = [
-                    (PeakOf::Displacement(side, floor), start.u[lane]),
-                    (PeakOf::Drift(side, floor), start.drift[lane]),
-                    (PeakOf::Acceleration(side, floor), start.resisted[lane] + pushed[lane]),
+                    (PeakOf::Displacement(id, floor), start.u[lane]),
+                    (PeakOf::Drift(id, floor), start.drift[lane]),
+                    (PeakOf::Acceleration(id, floor), start.resisted[lane] + pushed[lane]),
                 ];
                 // Accelerations depend on what a master pushes with, which may have just been set.
                 let known = if self.system.is_pushed { &now[..2] } else { &now };
@@ -116,7 +116,7 @@ impl PeakFinder<'_> {
             }
             // So do shears that can be corrected.
             if self.system.corrections.is_empty() {
-                peaks.raise(self.watched.rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
+                peaks.raise(self.watched.rows.place(PeakOf::BaseShear(id)), start.shear[id.index()]);
             }
         }
         self.raise_to_links(base, peaks, work);
@@ -131,22 +131,37 @@ impl PeakFinder<'_> {
         for b in 0..self.system.structure.bodies.len() {
             self.bound_body(b, part, &mut work.peaks.floors);
         }
-        let is_open =
-            Side::BOTH.map(|side| self.bound_building(side, (part.length, false), peaks, &mut work.peaks.floors));
+        let mut open = std::mem::take(&mut work.peaks.open_buildings);
+        open.clear();
+        for id in self.system.structure.ids() {
+            let is_open = self.bound_building(id, (part.length, false), peaks, &mut work.peaks.floors);
+            open.extend(is_open.then_some(id));
+        }
         let are_links_open = self.links_may_exceed(part, peaks, work);
-        if is_open == [false; 2] && !are_links_open {
-            return;
+        if !open.is_empty() || are_links_open {
+            self.look_closer((&open, are_links_open), part, peaks, work);
         }
+        work.peaks.open_buildings = open;
+    }
+
+    /// Notes what may exceed its peak by the bounds of a series, where there is one: of some buildings, and of the links.
+    fn look_closer(
+        &self,
+        (open, are_links_open): (&[BuildingId], bool),
+        part: &ContactStep,
+        peaks: &mut Peaks,
+        work: &mut PeakWork,
+    ) {
         let has_series = self.bound_by_series(part, work);
-        let room = &mut work.peaks.floors;
-        for side in Side::BOTH.into_iter().filter(|side| has_series && (are_links_open || is_open[*side as usize])) {
-            self.bound_building_by_series(side, part, room);
+        let is_wanted = |id: &BuildingId| has_series && (are_links_open || open.contains(id));
+        for id in self.system.structure.ids().filter(is_wanted) {
+            self.bound_building_by_series(id, part, &mut work.peaks.floors);
         }
-        for side in Side::BOTH.into_iter().filter(|side| is_open[*side as usize]) {
+        for &id in open {
             if has_series {
-                self.bound_building(side, (part.length, true), peaks, &mut work.peaks.floors);
+                self.bound_building(id, (part.length, true), peaks, &mut work.peaks.floors);
             }
-            self.note_open_floors(side, part.length, peaks, work.peaks);
+            self.note_open_floors(id, part.length, peaks, work.peaks);
         }
         if are_links_open {
             self.note_open_links(part, peaks, work);
@@ -174,11 +189,11 @@ impl PeakFinder<'_> {
     pub(in crate::engine) fn add_pushes(&self, (base, inputs): (&Base, &Inputs), time: f64, floors: &mut FloorState) {
         let at = |push: &LinearInput| push.after(base.segment.start, base.elapsed + time);
         self.system.add_pushes(inputs, Coordinates::Floors, at, &mut floors.resisted);
-        for side in Side::BOTH {
-            floors.shear[side as usize] -= self.system.correction_of_base(inputs, side, at);
+        for id in self.system.structure.ids() {
+            floors.shear[id.index()] -= self.system.correction_of_base(inputs, id, at);
         }
         for (of, line) in self.system.corrections.iter().zip(&inputs.corrections) {
-            floors.storey_shear[self.system.structure.floors.lane(of.side as usize, of.number)] -= at(line);
+            floors.storey_shear[self.system.structure.floors.lane(of.building, of.number)] -= at(line);
         }
     }
 
@@ -205,12 +220,18 @@ impl PeakFinder<'_> {
     }
 
     /// Notes the quantities of a building that may exceed their peaks within a step of `h` seconds.
-    fn note_open_floors(&self, side: Side, h: f64, peaks: &mut Peaks, PeakRoom { floors, open, .. }: &mut PeakRoom) {
-        let lanes = self.system.structure.floors.lanes_of(side as usize);
+    fn note_open_floors(
+        &self,
+        id: BuildingId,
+        h: f64,
+        peaks: &mut Peaks,
+        PeakRoom { floors, open, .. }: &mut PeakRoom,
+    ) {
+        let lanes = self.system.structure.floors.lanes_of(id);
         let FloorRoom { start, end, pushes, upper, .. } = &*floors;
         let kinds = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
         for (kind, (of, upper)) in kinds.into_iter().zip(upper).enumerate() {
-            let first = self.watched.rows.place(of(side, 0));
+            let first = self.watched.rows.place(of(id, 0));
             let bounds = upper[lanes.clone()].iter().zip(&peaks.values[first..]);
             for (floor, (&upper, &peak)) in bounds.enumerate() {
                 if upper <= peak {
@@ -221,12 +242,12 @@ impl PeakFinder<'_> {
                 let of_forces = pushes.each_ref().map(|pushed| if kind == 2 { pushed[lane] } else { 0.0 });
                 let ends = [of_motion[0] + of_forces[0], of_motion[1] + of_forces[1]];
                 // The peaks have been raised to the ends.
-                open.push(OpenQuantity { of: of(side, floor), place: first + floor, ends, upper });
+                open.push(OpenQuantity { of: of(id, floor), place: first + floor, ends, upper });
             }
         }
-        let (ends, upper) = self.bound_shear(side, h, floors);
-        self.note_open((PeakOf::BaseShear(side), upper), ends, peaks, open);
-        for (bound, ends) in self.bound_storey_shears(side, h, floors) {
+        let (ends, upper) = self.bound_shear(id, h, floors);
+        self.note_open((PeakOf::BaseShear(id), upper), ends, peaks, open);
+        for (bound, ends) in self.bound_storey_shears(id, h, floors) {
             self.note_open(bound, ends, peaks, open);
         }
     }

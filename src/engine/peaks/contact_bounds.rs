@@ -12,24 +12,23 @@ use crate::engine::step::Dense;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::larger;
 use crate::scene::Place;
-use crate::structure::{MotionSeries, Side};
+use crate::structure::{BuildingId, MotionSeries};
 
 impl PeakFinder<'_> {
     /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and bounds its floors in between;
     /// returns whether any peak may be exceeded.
     pub(super) fn bound_building(
         &self,
-        side: Side,
+        id: BuildingId,
         (h, has_series): (f64, bool),
         peaks: &mut Peaks,
         room: &mut FloorRoom,
     ) -> bool {
-        let lanes = self.system.structure.floors.lanes_of(side as usize);
-        let of_peaks =
-            [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)].map(|of| {
-                let first = self.watched.rows.place(of);
-                first..first + lanes.len()
-            });
+        let lanes = self.system.structure.floors.lanes_of(id);
+        let of_peaks = [PeakOf::Displacement(id, 0), PeakOf::Drift(id, 0), PeakOf::Acceleration(id, 0)].map(|of| {
+            let first = self.watched.rows.place(of);
+            first..first + lanes.len()
+        });
         let [of_displacements, of_drifts, of_accelerations] = of_peaks;
         let FloorRoom {
             start, end, pushes: [first, last], least, most, largest, largest_of_drifts, strays, upper, ..
@@ -46,42 +45,42 @@ impl PeakFinder<'_> {
             true => bound_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
             false => bound_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
         };
-        let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(side))];
+        let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(id))];
         // Written so that a NaN is never below anything.
         let are_floors_below = are_moved_below && are_drifted_below && are_pushed_below;
         let are_storeys_below = self
-            .bound_storey_shears(side, h, room)
+            .bound_storey_shears(id, h, room)
             .all(|((of, upper), _)| upper <= peaks.values[self.watched.rows.place(of)]);
-        !(are_floors_below && are_storeys_below && self.bound_shear(side, h, room).1 <= shear)
+        !(are_floors_below && are_storeys_below && self.bound_shear(id, h, room).1 <= shear)
     }
 
     /// For each storey of a building that can be corrected a bound on the magnitude of its shear over a step, and the
     /// shears at both ends, N: corrections are linear in time.
     pub(super) fn bound_storey_shears(
         &self,
-        side: Side,
+        id: BuildingId,
         h: f64,
         room: &FloorRoom,
     ) -> impl Iterator<Item = ((PeakOf, f64), [f64; 2])> {
-        let of_side = self.system.corrections.iter().filter(move |of| of.side == side);
+        let of_side = self.system.corrections.iter().filter(move |of| of.building == id);
         of_side.filter_map(move |of| {
             let FloorRoom { start, end, largest_of_drifts, .. } = room;
-            let lane = self.system.structure.floors.lane(side as usize, of.number);
+            let lane = self.system.structure.floors.lane(id, of.number);
             let ends = [start.storey_shear[lane], end.storey_shear[lane]];
             let stray = of.stiffness? * 0.125 * h * h * largest_of_drifts[lane];
-            Some(((PeakOf::StoreyShear(side, of.number), larger(ends[0].abs(), ends[1].abs()) + stray), ends))
+            Some(((PeakOf::StoreyShear(id, of.number), larger(ends[0].abs(), ends[1].abs()) + stray), ends))
         })
     }
 
     /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
     pub(super) fn bound_shear(
         &self,
-        side: Side,
+        id: BuildingId,
         length: f64,
         FloorRoom { start, end, largest, .. }: &FloorRoom,
     ) -> ([f64; 2], f64) {
-        let shears = [start, end].map(|at| at.shear[side as usize]);
-        (shears, larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, length, largest))
+        let shears = [start, end].map(|at| at.shear[id.index()]);
+        (shears, larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(id, length, largest))
     }
 
     /// Works out upper bounds on the accelerations of a body's floors.
@@ -93,7 +92,7 @@ impl PeakFinder<'_> {
         set_largest(ends, forces, part.strongest_ground(), &mut largest[lanes.clone()]);
         self.find_strays(b, part.length, room);
         for building in &self.system.structure.bodies[b].buildings {
-            self.system.structure.floors.bound_drifts(building.side, &room.largest, &mut room.largest_of_drifts);
+            self.system.structure.floors.bound_drifts(building.building, &room.largest, &mut room.largest_of_drifts);
         }
     }
 
@@ -125,9 +124,9 @@ impl PeakFinder<'_> {
 
     /// Works out upper bounds on the accelerations of the floors relative to the ground and to each other, from those at
     /// both ends and the deviations in between.
-    pub(super) fn bound_building_by_series(&self, side: Side, part: &ContactStep, room: &mut FloorRoom) {
+    pub(super) fn bound_building_by_series(&self, id: BuildingId, part: &ContactStep, room: &mut FloorRoom) {
         let floors = &self.system.structure.floors;
-        let lanes = floors.lanes_with_foundation(side as usize);
+        let lanes = floors.lanes_with_foundation(id);
         let FloorRoom {
             start,
             end,
@@ -146,13 +145,13 @@ impl PeakFinder<'_> {
                 accelerations[k][lane] = at.resisted[lane] + pushes[k][lane] - ground;
             }
             // The ground does not turn.
-            if let Some(rotation) = floors.lane_of(side, Place::Rotation) {
+            if let Some(rotation) = floors.lane_of(id, Place::Rotation) {
                 accelerations[k][rotation] += ground;
             }
-            floors.set_drifts(side, &accelerations[k], &mut drift_accelerations[k]);
+            floors.set_drifts(id, &accelerations[k], &mut drift_accelerations[k]);
         }
-        floors.bound_drifts(side, strays, largest_of_drifts);
-        let of_floors = floors.lanes_of(side as usize);
+        floors.bound_drifts(id, strays, largest_of_drifts);
+        let of_floors = floors.lanes_of(id);
         largest[lanes.clone()].copy_from_slice(&strays[lanes.clone()]);
         add_larger(accelerations.each_ref().map(|of| &of[lanes.clone()]), &mut largest[lanes.clone()]);
         add_larger(

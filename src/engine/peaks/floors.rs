@@ -12,7 +12,7 @@ use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::yielding::element::ElementOf;
 use crate::numerics::polynomial::largest;
-use crate::structure::{LANES, Motion, Side};
+use crate::structure::{BuildingId, LANES, Motion};
 
 /// Largest |T| for which the bound is used.
 const FURTHEST: f64 = 0.5;
@@ -45,16 +45,19 @@ impl PeakFinder<'_> {
                 }
             }
         }
-        out.shear = Side::BOTH.map(|side| self.shear_of(side, out));
+        let FloorState { u, v, shear, .. } = &mut *out;
+        for (id, shear) in structure.ids().zip(shear) {
+            *shear = self.shear_of(id, u, v);
+        }
         if !self.system.elements.is_empty() {
-            for side in Side::BOTH {
-                out.shear[side as usize] += rest.watched[self.watched.rows.place(PeakOf::BaseShear(side))];
+            for id in structure.ids() {
+                out.shear[id.index()] += rest.watched[self.watched.rows.place(PeakOf::BaseShear(id))];
             }
             out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);
         }
-        for side in Side::BOTH {
-            structure.floors.set_drifts(side, &out.u, &mut out.drift);
-            structure.floors.set_drifts(side, &out.v, &mut out.drifting);
+        for id in structure.ids() {
+            structure.floors.set_drifts(id, &out.u, &mut out.drift);
+            structure.floors.set_drifts(id, &out.v, &mut out.drifting);
         }
         for of in &self.system.corrections {
             let Some(stiffness) = of.stiffness else { continue };
@@ -62,9 +65,9 @@ impl PeakFinder<'_> {
                 true => 0.0,
                 false => rest.watched[self.watched.rows.place(quantity)],
             };
-            let lane = structure.floors.lane(of.side as usize, of.number);
-            let drift = out.drift[lane] - at_rest(PeakOf::Drift(of.side, of.number));
-            out.storey_shear[lane] = stiffness * drift + at_rest(PeakOf::StoreyShear(of.side, of.number));
+            let lane = structure.floors.lane(of.building, of.number);
+            let drift = out.drift[lane] - at_rest(PeakOf::Drift(of.building, of.number));
+            out.storey_shear[lane] = stiffness * drift + at_rest(PeakOf::StoreyShear(of.building, of.number));
         }
     }
 
@@ -74,10 +77,10 @@ impl PeakFinder<'_> {
         for (of, _) in self.system.elements.iter().zip(&base.elements).filter(|(_, element)| element.yields.is_some()) {
             let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
             of.row.push(Coordinates::Floors, force, &mut out.resisted);
-            if let ElementOf::Storey(side, storey) = of.place {
-                out.storey_shear[self.system.structure.floors.lane(side as usize, storey)] -= force;
+            if let ElementOf::Storey(id, storey) = of.place {
+                out.storey_shear[self.system.structure.floors.lane(id, storey)] -= force;
                 if storey == 0 {
-                    out.shear[side as usize] -= force;
+                    out.shear[id.index()] -= force;
                 }
             }
         }
@@ -100,7 +103,7 @@ impl PeakFinder<'_> {
         strays[lanes.clone()].fill(0.0);
         match dense {
             None => body.buildings.iter().for_each(|part| {
-                self.system.structure.floors.add_sizes(part.side as usize, factors, largest, strays);
+                self.system.structure.floors.add_sizes(part.building, factors, largest, strays);
             }),
             Some([stiffness, damping]) => {
                 let own = lanes.clone();
@@ -116,18 +119,18 @@ impl PeakFinder<'_> {
     }
 
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
-    pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
-        let [on_u, on_v] = self.watched.resistance.shear(side as usize);
-        let largest = &largest[self.system.structure.floors.lanes_with_foundation(side as usize)];
+    pub(in crate::engine) fn shear_strays(&self, id: BuildingId, h: f64, largest: &[f64]) -> f64 {
+        let [on_u, on_v] = self.watched.resistance.shear(id);
+        let largest = &largest[self.system.structure.floors.lanes_with_foundation(id)];
         let terms = on_u.iter().zip(on_v).zip(largest);
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
     }
 
     /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
-    fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
-        let [on_u, on_v] = self.watched.resistance.shear(side as usize);
-        let lanes = self.system.structure.floors.lanes_with_foundation(side as usize);
-        let [u, v] = [&floors.u[lanes.clone()], &floors.v[lanes]];
+    fn shear_of(&self, id: BuildingId, u: &[f64], v: &[f64]) -> f64 {
+        let [on_u, on_v] = self.watched.resistance.shear(id);
+        let lanes = self.system.structure.floors.lanes_with_foundation(id);
+        let [u, v] = [&u[lanes.clone()], &v[lanes]];
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));
         terms.map(|((k, c), (u, v))| k * u + c * v).sum()
     }

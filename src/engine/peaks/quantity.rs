@@ -123,7 +123,7 @@ impl PeakFinder<'_> {
     /// The same over modes or oscillators, from rows of zeros.
     fn set_rows_of_modes(&self, of: PeakOf, all: &PeakRows, [row, row_v]: &mut [Vec<f64>; 2]) {
         let place = all.place(match of {
-            PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
+            PeakOf::Acceleration(id, floor) => PeakOf::Displacement(id, floor),
             _ => of,
         });
         let (body, block) = all.block_of(place);
@@ -139,21 +139,19 @@ impl PeakFinder<'_> {
     fn set_rows_of_floors(&self, of: PeakOf, [row, row_v]: &mut [Vec<f64>; 2]) -> Option<(usize, Option<usize>)> {
         let floors = &self.system.structure.floors;
         match of {
-            PeakOf::Displacement(side, floor) | PeakOf::Acceleration(side, floor) => {
-                Some((floors.lane(side as usize, floor), None))
-            }
-            PeakOf::Drift(side, storey) => {
-                let lane = floors.lane(side as usize, storey);
+            PeakOf::Displacement(id, floor) | PeakOf::Acceleration(id, floor) => Some((floors.lane(id, floor), None)),
+            PeakOf::Drift(id, storey) => {
+                let lane = floors.lane(id, storey);
                 Some((lane, storey.checked_sub(1).map(|_| lane - 1)))
             }
-            PeakOf::BaseShear(side) => {
-                self.watched.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
+            PeakOf::BaseShear(id) => {
+                self.watched.resistance.set_shear_rows(id, floors.lanes_of(id), row, row_v);
                 None
             }
-            PeakOf::StoreyShear(side, storey) => {
-                let number = self.system.number_of_correction((side, storey));
+            PeakOf::StoreyShear(id, storey) => {
+                let number = self.system.number_of_correction((id, storey));
                 let stiffness = number.and_then(|number| self.system.corrections[number].stiffness).unwrap_or(0.0);
-                let lane = floors.lane(side as usize, storey);
+                let lane = floors.lane(id, storey);
                 row[lane] = stiffness;
                 storey.checked_sub(1).iter().for_each(|_| row[lane - 1] = -stiffness);
                 None

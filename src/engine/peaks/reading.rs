@@ -85,7 +85,7 @@ impl PeakFinder<'_> {
     /// The absolute acceleration of a floor, m/s2, at an x of a step that is a power series, from the motion and the
     /// contact forces there: in the series itself it has lost as many digits as its last terms have of the motion.
     fn acceleration_within(&self, of: PeakOf, x: f64, part: &ContactStep, work: &mut PeakWork) -> f64 {
-        let PeakOf::Acceleration(side, floor) = of else { return 0.0 };
+        let PeakOf::Acceleration(id, floor) = of else { return 0.0 };
         let ContactStep { base, step, inputs, .. } = *part;
         let time = step.taylor.series.time(roots::roughly(x));
         let PeakRoom { within: floors, floors: FloorRoom { modal, .. }, pieces: [q, v, ..], .. } = &mut *work.peaks;
@@ -98,7 +98,7 @@ impl PeakFinder<'_> {
         if self.system.is_pushed {
             self.add_pushes((base, inputs), time, floors);
         }
-        let lane = self.system.structure.floors.lane(side as usize, floor);
+        let lane = self.system.structure.floors.lane(id, floor);
         let closed = self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact());
         let pushes = closed.flat_map(|(p, pair)| pair.row.floors.into_iter().map(move |share| (p, share)));
         let pushed = pushes

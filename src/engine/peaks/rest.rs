@@ -4,7 +4,7 @@ use crate::engine::base::{Base, Coordinates, Rest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::rows::{BodyRows, PeakOf, values_of};
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, Motion, Side};
+use crate::structure::{LANES, Lane, Motion};
 
 impl PeakFinder<'_> {
     /// Writes the watched quantities in the position of rest of the storeys of the base: accelerations are 0, and so are base
@@ -17,19 +17,20 @@ impl PeakFinder<'_> {
             watched[place(PeakOf::LinkDisplacement(l))] = closing;
             watched[place(PeakOf::LinkForce(l))] = system.link_force(elements, l, (closing, 0.0));
         }
-        for side in Side::BOTH {
-            watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(elements, side, floors);
-            for (floor, lane) in system.structure.floors.lanes_of(side as usize).enumerate() {
-                watched[place(PeakOf::Displacement(side, floor))] = floors[lane];
-                let below = system.structure.floors.below(side, floor, floors);
-                watched[place(PeakOf::Drift(side, floor))] = floors[lane] - below;
+        for id in system.structure.ids() {
+            watched[place(PeakOf::BaseShear(id))] = system.shear_at_rest(elements, id, floors);
+            let [of_floors, of_storeys] = [PeakOf::Displacement(id, 0), PeakOf::Drift(id, 0)].map(place);
+            for (floor, lane) in system.structure.floors.lanes_of(id).enumerate() {
+                watched[of_floors + floor] = floors[lane];
+                let below = system.structure.floors.below(id, floor, floors);
+                watched[of_storeys + floor] = floors[lane] - below;
             }
         }
         for of in self.system.corrections.iter() {
-            let (Some(stiffness), storey) = (of.stiffness, (of.side, of.number)) else { continue };
+            let (Some(stiffness), storey) = (of.stiffness, (of.building, of.number)) else { continue };
             let slack = system.number_of_storey(storey).map_or(0.0, |i| system.elements[i].lost * elements[i].plastic);
-            let drift = watched[place(PeakOf::Drift(of.side, of.number))];
-            watched[place(PeakOf::StoreyShear(of.side, of.number))] = stiffness * drift - slack;
+            let drift = watched[place(PeakOf::Drift(of.building, of.number))];
+            watched[place(PeakOf::StoreyShear(of.building, of.number))] = stiffness * drift - slack;
         }
     }
 
@@ -49,8 +50,8 @@ impl PeakFinder<'_> {
     /// out.
     pub(in crate::engine) fn soften_row(&self, of: PeakOf, base: &Base, rows: &mut [Vec<f64>; 2]) -> f64 {
         let number = match of {
-            PeakOf::BaseShear(side) => self.system.number_of_storey((side, 0)),
-            PeakOf::StoreyShear(side, storey) => self.system.number_of_storey((side, storey)),
+            PeakOf::BaseShear(id) => self.system.number_of_storey((id, 0)),
+            PeakOf::StoreyShear(id, storey) => self.system.number_of_storey((id, storey)),
             PeakOf::LinkForce(l) => self.system.number_of_link(l),
             _ => None,
         };

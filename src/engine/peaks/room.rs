@@ -7,7 +7,7 @@ use crate::engine::peaks::fold_room::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::quantities::span_rows::SpanRows;
 use crate::engine::system::buffers::Buffers;
-use crate::structure::{Interval, LANES, Structure};
+use crate::structure::{BuildingId, Interval, LANES, Structure};
 
 /// Number of motions of a window that are kept from the first on, and of the latest ones.
 const MOST_READ: usize = 4;
@@ -130,6 +130,8 @@ pub struct PeakRoom {
     pub floors: FloorRoom,
     /// The floors within a step that is a power series.
     pub within: FloorState,
+    /// Those of which some quantity may exceed its peak.
+    pub open_buildings: Vec<BuildingId>,
     pub readings: Readings,
     /// What may exceed its peak within a step in contact.
     pub open: Vec<OpenQuantity>,
@@ -152,7 +154,7 @@ impl PeakRoom {
         pairs: usize,
         flights: usize,
     ) -> PeakRoom {
-        let lanes = structure.lanes;
+        let (lanes, buildings) = (structure.lanes, structure.ids().count());
         PeakRoom {
             fold: FoldRoom::new(rows, of_spans, flights),
             bounds: ModeBounds::new(lanes),
@@ -167,8 +169,9 @@ impl PeakRoom {
             creeps: vec![f64::NAN; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
             direct: vec![[0.0; 2]; rows.blocks() * LANES],
-            floors: FloorRoom::new(lanes),
-            within: FloorState::new(lanes),
+            floors: FloorRoom::new(lanes, buildings),
+            within: FloorState::new(lanes, buildings),
+            open_buildings: Vec::with_capacity(buildings),
             readings: Readings::new(if rows.are_none() { 0 } else { lanes }),
             open: Vec::with_capacity(rows.blocks() * LANES),
             strongest: vec![0.0; pairs],
@@ -197,7 +200,7 @@ pub struct PeakWork<'a> {
     pub peaks: &'a mut PeakRoom,
 }
 
-/// The floors of both buildings at one time.
+/// All floors at one time.
 #[derive(Clone, Debug, Default)]
 pub struct FloorState {
     /// Displacements, m.
@@ -210,14 +213,14 @@ pub struct FloorState {
     pub drifting: Vec<f64>,
     /// Accelerations by stiffness and damping of the buildings and by what a master pushes with, m/s2.
     pub resisted: Vec<f64>,
-    /// Base shears of both buildings, N.
-    pub shear: [f64; 2],
+    /// Base shears of the buildings, N.
+    pub shear: Vec<f64>,
     /// Shears of the storeys below the floors, where these can be corrected, N.
     pub storey_shear: Vec<f64>,
 }
 
 impl FloorState {
-    pub fn new(lanes: usize) -> FloorState {
+    pub fn new(lanes: usize, buildings: usize) -> FloorState {
         let vector = || vec![0.0; lanes];
         FloorState {
             u: vector(),
@@ -225,7 +228,7 @@ impl FloorState {
             drift: vector(),
             drifting: vector(),
             resisted: vector(),
-            shear: [0.0; 2],
+            shear: vec![0.0; buildings],
             storey_shear: vector(),
         }
     }
@@ -261,11 +264,11 @@ pub struct FloorRoom {
 }
 
 impl FloorRoom {
-    pub fn new(lanes: usize) -> FloorRoom {
+    pub fn new(lanes: usize, buildings: usize) -> FloorRoom {
         let vector = || vec![0.0; lanes];
         FloorRoom {
-            start: FloorState::new(lanes),
-            end: FloorState::new(lanes),
+            start: FloorState::new(lanes, buildings),
+            end: FloorState::new(lanes, buildings),
             pushes: [vector(), vector()],
             least: vector(),
             most: vector(),

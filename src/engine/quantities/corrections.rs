@@ -6,12 +6,12 @@
 //! against its lower one or the foundation; shears are less by it.
 
 use crate::scene::{Place, Scene};
-use crate::structure::{Side, Structure};
+use crate::structure::{BuildingId, Structure};
 
 /// A storey of a shear building, or a floor of one with a stiffness matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Correction {
-    pub side: Side,
+    pub building: BuildingId,
     /// Of the storey or floor, counted from 0.
     pub number: usize,
     /// N/m, of a storey; `None` for a floor.
@@ -21,21 +21,21 @@ pub(crate) struct Correction {
 impl Correction {
     /// All of a scene, in the order of the inputs.
     pub(crate) fn all(scene: &Scene, structure: &Structure) -> Vec<Correction> {
-        let sides = Side::BOTH.into_iter().filter(|_| scene.restoring_corrections);
-        let numbers = sides.flat_map(|side| (0..structure.floors(side)).map(move |number| (side, number)));
-        let of = |(side, number): (Side, usize)| {
-            let stiffness = scene.building(side).stiffness.of_storey(number);
-            Correction { side, number, stiffness }
+        let buildings = structure.ids().filter(|_| scene.restoring_corrections);
+        let numbers = buildings.flat_map(|id| (0..structure.floors(id)).map(move |number| (id, number)));
+        let of = |(id, number): (BuildingId, usize)| {
+            let stiffness = scene.building(id).stiffness.of_storey(number);
+            Correction { building: id, number, stiffness }
         };
         numbers.map(of).collect()
     }
 
     /// The row of the storey's drift, or of the floor's displacement.
-    pub(crate) fn places(&self, structure: &Structure) -> Vec<(Side, Place, f64)> {
-        let with_side = |(place, weight)| (self.side, place, weight);
+    pub(crate) fn places(&self, structure: &Structure) -> Vec<(BuildingId, Place, f64)> {
+        let with_building = |(place, weight)| (self.building, place, weight);
         match self.stiffness {
-            Some(_) => structure.floors.places(self.side).drift(self.number).map(with_side).collect(),
-            None => vec![(self.side, Place::Floor(self.number), 1.0)],
+            Some(_) => structure.floors.places(self.building).drift(self.number).map(with_building).collect(),
+            None => vec![(self.building, Place::Floor(self.number), 1.0)],
         }
     }
 

@@ -37,11 +37,11 @@ impl Pushed {
         for lane in 0..LANES {
             let Some(of) = rows.at(block * LANES + lane) else { continue };
             let mut add = |push, factor| terms.push(Term { lane, push, factor });
-            if let (PeakOf::Acceleration(side, floor), true) = (of, pushes.floor_forces) {
+            if let (PeakOf::Acceleration(id, floor), true) = (of, pushes.floor_forces) {
                 let floors = &structure.floors;
-                add(structure.number(side, floor), floors.inverse_mass(floors.lane(side as usize, floor)));
+                add(structure.number(id, floor), floors.inverse_mass(floors.lane(id, floor)));
             }
-            let first = if pushes.floor_forces { structure.floors_of_both() } else { 0 };
+            let first = if pushes.floor_forces { structure.floors_of_all() } else { 0 };
             for (number, correction) in pushes.corrections.iter().enumerate() {
                 match share(structure, correction, of) {
                     0.0 => {}
@@ -69,14 +69,14 @@ impl Pushed {
 /// How much of a quantity a correction is.
 fn share(structure: &Structure, correction: &Correction, of: PeakOf) -> f64 {
     match of {
-        PeakOf::Acceleration(side, floor) => {
-            let lane = structure.floors.lane(side as usize, floor);
+        PeakOf::Acceleration(id, floor) => {
+            let lane = structure.floors.lane(id, floor);
             let places = correction.places(structure).into_iter();
-            let on_floor = places.filter(|&(side, place, _)| structure.floors.lane_of(side, place) == Some(lane));
+            let on_floor = places.filter(|&(id, place, _)| structure.floors.lane_of(id, place) == Some(lane));
             on_floor.map(|(.., weight)| weight * structure.floors.inverse_mass(lane)).sum()
         }
-        PeakOf::BaseShear(side) if correction.side == side => -correction.on_base(),
-        PeakOf::StoreyShear(side, storey) if (correction.side, correction.number) == (side, storey) => -1.0,
+        PeakOf::BaseShear(id) if correction.building == id => -correction.on_base(),
+        PeakOf::StoreyShear(id, storey) if (correction.building, correction.number) == (id, storey) => -1.0,
         _ => 0.0,
     }
 }

@@ -1,6 +1,6 @@
 //! Magnitudes of the coupling between floors by stiffness and damping, for bounds on accelerations.
 
-use crate::structure::{Body, ModalDamping, Structure};
+use crate::structure::{Body, BuildingId, ModalDamping, Structure};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ pub(crate) struct FloorResistance {
     pub bodies: Vec<Resistance>,
     /// Column sums of K and C of each building, N/m and N s/m: the base shear is their product with displacements and
     /// velocities.
-    shear: [[Vec<f64>; 2]; 2],
+    shear: Vec<[Vec<f64>; 2]>,
 }
 
 /// The coupling between the floors of one body.
@@ -26,11 +26,12 @@ pub(crate) struct Resistance {
 impl FloorResistance {
     /// For all bodies of a structure.
     pub(crate) fn of(structure: &Structure) -> FloorResistance {
-        let mut of_structure = FloorResistance { bodies: Vec::new(), shear: Default::default() };
+        let mut of_structure =
+            FloorResistance { bodies: Vec::new(), shear: vec![Default::default(); structure.ids().count()] };
         for body in &structure.bodies {
             let matrices = matrices(structure, body);
             for part in &body.buildings {
-                of_structure.shear[part.side as usize] = match structure.shear_rows_of_floors(part.side) {
+                of_structure.shear[part.building.index()] = match structure.shear_rows_of_floors(part.building) {
                     Some(rows) => rows.clone(),
                     None => shears(structure, body, &matrices),
                 };
@@ -41,14 +42,14 @@ impl FloorResistance {
     }
 
     /// The rows of the base shear over the displacements and the velocities of the floors of one building.
-    pub(crate) fn shear(&self, side: usize) -> &[Vec<f64>; 2] {
-        &self.shear[side]
+    pub(crate) fn shear(&self, id: BuildingId) -> &[Vec<f64>; 2] {
+        &self.shear[id.index()]
     }
 
     /// Writes the rows of the base shear over the displacements and the velocities of all floors; the building has the
     /// given `lanes` of them.
-    pub(crate) fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
-        let [on_u, on_v] = self.shear(side);
+    pub(crate) fn set_shear_rows(&self, id: BuildingId, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
+        let [on_u, on_v] = self.shear(id);
         row[lanes.clone()].copy_from_slice(on_u);
         row_v[lanes].copy_from_slice(on_v);
     }

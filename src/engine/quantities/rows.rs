@@ -15,7 +15,7 @@
 
 use crate::engine::quantities::corrections::Correction;
 use crate::numerics::polynomial::cut;
-use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Structure};
+use crate::structure::{Body, BuildingId, FlightModes, LANES, Lane, ModalDamping, Structure};
 use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
@@ -23,16 +23,16 @@ use std::ops::Range;
 #[non_exhaustive]
 pub enum PeakOf {
     /// Displacement of a floor relative to the ground, m.
-    Displacement(Side, usize),
+    Displacement(BuildingId, usize),
     /// Drift of a storey, m: the displacement of its upper floor less that of its lower one, and on soil less what the rotation of
     /// the foundation makes of it.
-    Drift(Side, usize),
+    Drift(BuildingId, usize),
     /// Absolute acceleration of a floor, m/s2.
-    Acceleration(Side, usize),
+    Acceleration(BuildingId, usize),
     /// Force of the building on the ground, N.
-    BaseShear(Side),
+    BaseShear(BuildingId),
     /// Shear of a storey of a shear building that can be corrected, N, without damping.
-    StoreyShear(Side, usize),
+    StoreyShear(BuildingId, usize),
     /// By how much the ends of a link have come nearer, m. Links of a scene come first, then the soil under foundations.
     LinkDisplacement(usize),
     /// Force with which a link pushes its ends apart, N.
@@ -44,7 +44,7 @@ pub enum PeakOf {
 pub(crate) struct PeakRows {
     pub bodies: Vec<BodyRows>,
     /// Where those of each building begin.
-    buildings: [FirstPlaces; 2],
+    buildings: Vec<FirstPlaces>,
     /// Indices of displacement and force of each link.
     links: Vec<[usize; 2]>,
 }
@@ -87,18 +87,19 @@ impl PeakRows {
     /// The watched quantities of all bodies; none unless `wanted`.
     pub(crate) fn of(structure: &Structure, corrections: &[Correction], wanted: bool) -> PeakRows {
         let links = vec![[0; 2]; structure.links.len()];
-        let mut rows = PeakRows { bodies: Vec::new(), buildings: [FirstPlaces::default(); 2], links };
+        let buildings = vec![FirstPlaces::default(); structure.ids().count()];
+        let mut rows = PeakRows { bodies: Vec::new(), buildings, links };
         for b in (0..structure.bodies.len()).filter(|_| wanted) {
             let of_body = BodyRows::of((structure, corrections), b, rows.blocks());
             for (place, of) in of_body.all() {
                 match of {
-                    PeakOf::Displacement(side, 0) => rows.buildings[side as usize].displacement = place,
-                    PeakOf::Drift(side, 0) => rows.buildings[side as usize].drift = place,
-                    PeakOf::Acceleration(side, 0) => rows.buildings[side as usize].acceleration = place,
-                    PeakOf::BaseShear(side) => rows.buildings[side as usize].shear = place,
+                    PeakOf::Displacement(id, 0) => rows.buildings[id.index()].displacement = place,
+                    PeakOf::Drift(id, 0) => rows.buildings[id.index()].drift = place,
+                    PeakOf::Acceleration(id, 0) => rows.buildings[id.index()].acceleration = place,
+                    PeakOf::BaseShear(id) => rows.buildings[id.index()].shear = place,
                     PeakOf::LinkDisplacement(l) => rows.links[l][0] = place,
                     PeakOf::LinkForce(l) => rows.links[l][1] = place,
-                    PeakOf::StoreyShear(side, 0) => rows.buildings[side as usize].storey_shear = place,
+                    PeakOf::StoreyShear(id, 0) => rows.buildings[id.index()].storey_shear = place,
                     PeakOf::Displacement(..)
                     | PeakOf::Drift(..)
                     | PeakOf::Acceleration(..)
@@ -115,7 +116,7 @@ impl PeakRows {
         let oscillators = structure.oscillators()?;
         let PeakRows { buildings, links, .. } = self;
         let bodies = self.bodies.iter().map(|body| body.over(oscillators, structure.lanes)).collect();
-        Some(PeakRows { bodies, buildings: *buildings, links: links.clone() })
+        Some(PeakRows { bodies, buildings: buildings.clone(), links: links.clone() })
     }
 
     /// The body and the block of a quantity.
@@ -144,11 +145,11 @@ impl PeakRows {
     #[inline(always)]
     pub(crate) fn place(&self, of: PeakOf) -> usize {
         match of {
-            PeakOf::Displacement(side, floor) => self.buildings[side as usize].displacement + floor,
-            PeakOf::Drift(side, storey) => self.buildings[side as usize].drift + storey,
-            PeakOf::Acceleration(side, floor) => self.buildings[side as usize].acceleration + floor,
-            PeakOf::BaseShear(side) => self.buildings[side as usize].shear,
-            PeakOf::StoreyShear(side, storey) => self.buildings[side as usize].storey_shear + storey,
+            PeakOf::Displacement(id, floor) => self.buildings[id.index()].displacement + floor,
+            PeakOf::Drift(id, storey) => self.buildings[id.index()].drift + storey,
+            PeakOf::Acceleration(id, floor) => self.buildings[id.index()].acceleration + floor,
+            PeakOf::BaseShear(id) => self.buildings[id.index()].shear,
+            PeakOf::StoreyShear(id, storey) => self.buildings[id.index()].storey_shear + storey,
             PeakOf::LinkDisplacement(l) => self.links[l][0],
             PeakOf::LinkForce(l) => self.links[l][1],
         }
@@ -164,13 +165,13 @@ impl BodyRows {
     fn of((structure, corrections): (&Structure, &[Correction]), b: usize, first: usize) -> BodyRows {
         let body = &structure.bodies[b];
         let links = || (0..structure.links.len()).filter(|l| structure.links[*l].body == b);
-        let floors: Vec<(Side, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
-        let of_floors = |of: fn(Side, usize) -> PeakOf| floors.iter().map(move |&(side, floor)| of(side, floor));
+        let floors: Vec<(BuildingId, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
+        let of_floors = |of: fn(BuildingId, usize) -> PeakOf| floors.iter().map(move |&(id, floor)| of(id, floor));
         let moving = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift));
-        let corrected = corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.side));
-        let corrected = corrected.map(|of| PeakOf::StoreyShear(of.side, of.number));
+        let corrected = corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.building));
+        let corrected = corrected.map(|of| PeakOf::StoreyShear(of.building, of.number));
         let moving: Vec<PeakOf> = moving.chain(links().map(PeakOf::LinkDisplacement)).chain(corrected).collect();
-        let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.side));
+        let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.building));
         let pulling = of_floors(PeakOf::Acceleration).chain(shears);
         let pulling: Vec<PeakOf> = pulling.chain(links().map(PeakOf::LinkForce)).collect();
         let count = body.modes.omega.len();
@@ -227,19 +228,19 @@ fn row_of((structure, corrections): (&Structure, &[Correction]), body: &Body, of
         ModalDamping::Coupled(c) => (0..c.nrows()).map(|k| c[(k, m)] * of(k)).sum(),
     };
     match of {
-        PeakOf::Displacement(side, floor) => [modes.shape[(body.row(side, floor), m)], 0.0],
-        PeakOf::Drift(side, storey) => [body.drift(side, storey, m), 0.0],
-        PeakOf::Acceleration(side, floor) => {
-            let shape = |k: usize| modes.shape[(body.row(side, floor), k)];
+        PeakOf::Displacement(id, floor) => [modes.shape[(body.row(id, floor), m)], 0.0],
+        PeakOf::Drift(id, storey) => [body.drift(id, storey, m), 0.0],
+        PeakOf::Acceleration(id, floor) => {
+            let shape = |k: usize| modes.shape[(body.row(id, floor), k)];
             [-w2 * shape(m), -damped(&shape)]
         }
-        PeakOf::BaseShear(side) => match structure.shear_rows(side) {
+        PeakOf::BaseShear(id) => match structure.shear_rows(id) {
             None => [w2 * modes.participation[m], damped(&|k| modes.participation[k])],
             Some([on_q, on_v]) => [on_q[body.range.start + m], on_v[body.range.start + m]],
         },
-        PeakOf::StoreyShear(side, storey) => {
-            let stiffness = corrections[structure.number(side, storey)].stiffness.unwrap_or(0.0);
-            [stiffness * body.drift(side, storey, m), 0.0]
+        PeakOf::StoreyShear(id, storey) => {
+            let stiffness = corrections[structure.number(id, storey)].stiffness.unwrap_or(0.0);
+            [stiffness * body.drift(id, storey, m), 0.0]
         }
         PeakOf::LinkDisplacement(l) => [structure.links[l].row[body.range.start + m], 0.0],
         PeakOf::LinkForce(l) => {

@@ -1,7 +1,7 @@
 //! Quantities of single storeys that follow from what is watched anyway.
 
 use crate::scene::{Building, ContactPair, Scene, Stiffness};
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 /// A quantity of one storey. Each is a factor times another output, or the largest of some.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -15,17 +15,17 @@ pub enum StoreyPeak {
     ColumnForce,
 }
 
-/// What is known of the storeys of both buildings.
+/// What is known of the storeys of all buildings.
 #[derive(Debug)]
 pub(crate) struct Storeys {
     /// m, where the scene has heights.
-    heights: [Vec<f64>; 2],
+    heights: Vec<Vec<f64>>,
     /// N/m, of a shear building.
-    stiffness: [Vec<f64>; 2],
+    stiffness: Vec<Vec<f64>>,
     /// What a mass above each storey takes of its stiffness by its weight, N/m per kg; empty where weights are given.
-    pub weights: [Vec<f64>; 2],
+    pub weights: Vec<Vec<f64>>,
     /// The storey whose columns are hit at each contact.
-    pub struck: Vec<Option<(Side, usize)>>,
+    pub struck: Vec<Option<(BuildingId, usize)>>,
 }
 
 impl Storeys {
@@ -36,19 +36,19 @@ impl Storeys {
             Stiffness::Matrix(_) => Vec::new(),
         };
         let heights = |building: &Building| building.heights.as_ref().map_or_else(Vec::new, |h| h.storeys.clone());
-        let struck = |pair: &ContactPair| pair.columns().map(|(side, storey)| (side, storey - 1));
-        let buildings = [&scene.left, &scene.right];
+        let struck = |pair: &ContactPair| pair.columns().map(|(id, storey)| (id, storey - 1));
+        let buildings = &scene.buildings;
         Storeys {
-            heights: buildings.map(heights),
-            stiffness: buildings.map(stiffness),
-            weights: buildings.map(Building::gravity_per_mass),
+            heights: buildings.iter().map(heights).collect(),
+            stiffness: buildings.iter().map(stiffness).collect(),
+            weights: buildings.iter().map(Building::gravity_per_mass).collect(),
             struck: scene.contacts.iter().map(struck).collect(),
         }
     }
 
     /// How much of a quantity there is per m of drift.
-    pub(crate) fn per_drift(&self, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
-        let of_storey = |all: &[Vec<f64>; 2]| all[side as usize].get(storey).copied();
+    pub(crate) fn per_drift(&self, of: StoreyPeak, (id, storey): (BuildingId, usize)) -> f64 {
+        let of_storey = |all: &[Vec<f64>]| all[id.index()].get(storey).copied();
         let factor = match of {
             StoreyPeak::DriftRatio => of_storey(&self.heights).map(f64::recip),
             StoreyPeak::Shear => of_storey(&self.stiffness),

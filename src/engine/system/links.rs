@@ -3,7 +3,7 @@
 use crate::engine::base::element::ElementState;
 use crate::engine::system::System;
 use crate::engine::yielding::element::ElementOf;
-use crate::structure::{Side, dot};
+use crate::structure::{BuildingId, dot};
 
 impl System {
     /// By how much the ends of a link have come nearer in a modal motion relative to the position of rest, m; or how fast
@@ -42,13 +42,10 @@ impl System {
     }
 
     /// Base shear of a building in the position of rest, N: links hold what they have to, between floors that have yielded.
-    pub fn shear_at_rest(&self, elements: &[ElementState], side: Side, floors: &[f64]) -> f64 {
-        let Some([on_u, _]) = self.structure.shear_rows_of_floors(side) else { return 0.0 };
-        let elastic: f64 = on_u
-            .iter()
-            .zip(&floors[self.structure.floors.lanes_with_foundation(side as usize)])
-            .map(|(k, u)| k * u)
-            .sum();
-        elastic - self.number_of_storey((side, 0)).map_or(0.0, |i| self.elements[i].lost * elements[i].plastic)
+    pub fn shear_at_rest(&self, elements: &[ElementState], id: BuildingId, floors: &[f64]) -> f64 {
+        let Some([on_u, _]) = self.structure.shear_rows_of_floors(id) else { return 0.0 };
+        let elastic: f64 =
+            on_u.iter().zip(&floors[self.structure.floors.lanes_with_foundation(id)]).map(|(k, u)| k * u).sum();
+        elastic - self.number_of_storey((id, 0)).map_or(0.0, |i| self.elements[i].lost * elements[i].plastic)
     }
 }

@@ -26,14 +26,16 @@ use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Side, Structure};
+use crate::structure::{BuildingId, FEW_BLOCKS, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Structure};
 
 /// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
 pub struct System {
     pub structure: Structure,
-    /// What gravity takes of the stiffness of each storey, N/m; empty for a building on whose lean it does not act.
-    pub gravity: [Vec<f64>; 2],
+    /// The names of the buildings.
+    pub names: Vec<String>,
+    /// The storeys on whose lean gravity acts, with what it takes of their stiffness, N/m.
+    pub leaning: Vec<((BuildingId, usize), f64)>,
     /// The fastest rate of the buildings with or without elements that yield, 1/s.
     pub fastest: f64,
     pub pairs: Vec<Pair>,
@@ -70,7 +72,7 @@ pub struct System {
 impl System {
     /// The system of a checked scene; `record` is there when `scene.ground.record` is.
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
-        let mut structure = Structure::of(scene).map_err(|(side, _)| not_positive_definite(side))?;
+        let mut structure = Structure::of(scene).map_err(|(id, _)| not_positive_definite(scene.building(id)))?;
         // Rigid pairs that have just parted are followed in modes; a force on a floor would load both coordinates of an oscillator.
         let is_pushed = scene.floor_forces || scene.restoring_corrections;
         let needs_modes = is_pushed || scene.contacts.iter().any(|contact| contact.law.is_rigid());
@@ -100,10 +102,9 @@ impl System {
         }
         let corrections = Correction::all(scene, &structure);
         let row = |of: &Correction| WeightRow::of(&structure, of.places(&structure).iter().copied());
-        let gravity =
-            |building: &Building| if building.has_gravity() { building.gravity_stiffness() } else { Vec::new() };
         Ok(System {
-            gravity: [&scene.left, &scene.right].map(gravity),
+            leaning: leaning(scene),
+            names: scene.buildings.iter().map(|building| building.name.clone()).collect(),
             fastest: elements.iter().fold(structure.fastest, |most, of| most.max(of.growth() * structure.fastest)),
             initial,
             initial_elements,
@@ -311,8 +312,8 @@ fn contact_coordinates(structure: &Structure) -> Coordinates {
 /// A motion of all floors as one of modes.
 fn of_modes(motion: &[f64], structure: &Structure) -> Vec<f64> {
     let mut modal = vec![0.0; structure.lanes];
-    for side in Side::BOTH {
-        structure.add_modal(side, &motion[structure.floors.lanes_of(side as usize)], &mut modal);
+    for id in structure.ids() {
+        structure.add_modal(id, &motion[structure.floors.lanes_of(id)], &mut modal);
     }
     modal
 }
@@ -320,12 +321,21 @@ fn of_modes(motion: &[f64], structure: &Structure) -> Vec<f64> {
 /// Displacements and velocities of all floors at the start.
 fn initial_floors(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
     let mut motion = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
-    for side in Side::BOTH {
-        let (building, lanes) = (scene.building(side), structure.floors.lanes_of(side as usize));
+    for id in structure.ids() {
+        let (building, lanes) = (scene.building(id), structure.floors.lanes_of(id));
         motion[0][lanes.clone()].copy_from_slice(&building.initial_displacement);
         motion[1][lanes].copy_from_slice(&building.initial_velocity);
     }
     motion
+}
+
+/// The storeys on whose lean gravity acts, with g, N/m.
+fn leaning(scene: &Scene) -> Vec<((BuildingId, usize), f64)> {
+    let leaning = scene.ids().zip(&scene.buildings).filter(|(_, building)| building.has_gravity());
+    let of = |(id, building): (BuildingId, &Building)| {
+        building.gravity_stiffness().into_iter().enumerate().map(move |(storey, g)| ((id, storey), g))
+    };
+    leaning.flat_map(of).filter(|(_, g)| *g != 0.0).collect()
 }
 
 fn too_short(record: &Record) -> SceneError {
@@ -333,7 +343,7 @@ fn too_short(record: &Record) -> SceneError {
     Problem::new("ground.record", found, "at least 2 samples, to be linear between").into()
 }
 
-fn not_positive_definite(side: Side) -> SceneError {
+fn not_positive_definite(building: &Building) -> SceneError {
     let expected = "a positive definite stiffness with natural frequencies that double precision can hold";
-    Problem::new(format!("{side}.stiffness"), "", expected).into()
+    Problem::new(format!("{}.stiffness", building.name), "", expected).into()
 }

@@ -5,7 +5,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::inputs::{Inputs, LinearInput, Push};
 use crate::engine::quantities::pushed::Pushes;
 use crate::engine::system::System;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 impl System {
     /// What a master may push with.
@@ -50,13 +50,13 @@ impl System {
 
     /// Adds forces on all floors, N, or on none.
     fn add_forces(&self, mut forces: impl Iterator<Item = f64>, coordinates: Coordinates, load: &mut [f64]) {
-        for side in Side::BOTH {
-            let of_side = forces.by_ref().take(self.structure.floors(side)).enumerate();
-            let acting = of_side.filter(|(_, force)| *force != 0.0);
+        for id in self.structure.ids() {
+            let of_building = forces.by_ref().take(self.structure.floors(id)).enumerate();
+            let acting = of_building.filter(|(_, force)| *force != 0.0);
             match coordinates {
-                Coordinates::Modes => self.structure.add_floor_forces(side, acting, load),
+                Coordinates::Modes => self.structure.add_floor_forces(id, acting, load),
                 Coordinates::Floors => acting.for_each(|(floor, force)| {
-                    let lane = self.structure.floors.lane(side as usize, floor);
+                    let lane = self.structure.floors.lane(id, floor);
                     load[lane] += force * self.structure.floors.inverse_mass(lane);
                 }),
             }
@@ -70,13 +70,13 @@ impl System {
     }
 
     /// What the base shear of a building is less by, N, or its rate.
-    pub fn correction_of_base(&self, inputs: &Inputs, side: Side, part: impl Fn(&LinearInput) -> f64) -> f64 {
-        let all = self.corrections.iter().zip(&inputs.corrections).filter(|(of, _)| of.side == side);
+    pub fn correction_of_base(&self, inputs: &Inputs, id: BuildingId, part: impl Fn(&LinearInput) -> f64) -> f64 {
+        let all = self.corrections.iter().zip(&inputs.corrections).filter(|(of, _)| of.building == id);
         all.fold(0.0, |sum, (of, line)| sum + of.on_base() * part(line))
     }
 
     /// The number among the corrections of that of a storey or floor, if there are any.
-    pub fn number_of_correction(&self, (side, number): (Side, usize)) -> Option<usize> {
-        Some(self.structure.number(side, number)).filter(|number| *number < self.corrections.len())
+    pub fn number_of_correction(&self, (id, number): (BuildingId, usize)) -> Option<usize> {
+        Some(self.structure.number(id, number)).filter(|number| *number < self.corrections.len())
     }
 }

@@ -5,7 +5,7 @@ use crate::engine::base::{Coordinates, Rest};
 use crate::engine::system::System;
 use crate::engine::yielding::element::{Element, ElementOf, Present};
 use crate::scene::Place;
-use crate::structure::Side;
+use crate::structure::BuildingId;
 
 impl System {
     /// The position of rest of some storeys.
@@ -53,10 +53,10 @@ impl System {
         &self,
         coordinates: Coordinates,
         elements: &[ElementState],
-        side: Side,
+        id: BuildingId,
         motion: &[f64],
     ) -> f64 {
-        let yielding = self.number_of_storey((side, 0)).filter(|i| elements[*i].yields.is_some());
+        let yielding = self.number_of_storey((id, 0)).filter(|i| elements[*i].yields.is_some());
         yielding.map_or(0.0, |i| self.elements[i].lost * self.elements[i].drift(coordinates, motion))
     }
 
@@ -72,8 +72,8 @@ impl System {
     }
 
     /// The number of a storey of a building, counted from 0, among those that can yield.
-    pub fn number_of_storey(&self, (side, storey): (Side, usize)) -> Option<usize> {
-        self.number_of(ElementOf::Storey(side, storey))
+    pub fn number_of_storey(&self, (id, storey): (BuildingId, usize)) -> Option<usize> {
+        self.number_of(ElementOf::Storey(id, storey))
     }
 
     /// The number of an element among those that can yield.
@@ -86,51 +86,44 @@ impl System {
         self.elements_at(elements).map(|(of, present)| of.locked_energy(present)).sum()
     }
 
-    /// The storeys on whose lean gravity acts, with g, N/m.
-    pub fn leaning(&self) -> impl Iterator<Item = ((Side, usize), f64)> {
-        let of =
-            |side: Side| self.gravity[side as usize].iter().enumerate().map(move |(storey, g)| ((side, storey), *g));
-        Side::BOTH.into_iter().flat_map(of).filter(|(_, g)| *g != 0.0)
-    }
-
     /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g lean^2.
     pub fn gravity_energy(&self, (coordinates, elements): (Coordinates, &[ElementState]), q: &[f64]) -> f64 {
-        let of = |(place, g): ((Side, usize), f64)| {
+        let of = |&(place, g): &((BuildingId, usize), f64)| {
             let lean = self.lean(coordinates, place, q) + self.lean_at_rest(place, elements);
             -0.5 * g * (lean * lean)
         };
-        self.leaning().map(of).sum()
+        self.leaning.iter().map(of).sum()
     }
 
     /// Lean of a storey in the position of rest, m.
-    fn lean_at_rest(&self, (side, storey): (Side, usize), elements: &[ElementState]) -> f64 {
-        if !self.structure.body(side).is_linked {
-            let own = self.number_of_storey((side, storey));
+    fn lean_at_rest(&self, (id, storey): (BuildingId, usize), elements: &[ElementState]) -> f64 {
+        if !self.structure.body(id).is_linked {
+            let own = self.number_of_storey((id, storey));
             return own.map_or(0.0, |i| self.elements[i].kept() * elements[i].plastic);
         }
         let floors = &self.structure.floors;
         let moved = |(of, state): (&Element, &ElementState)| {
-            let of_place = |(place, weight)| Some(weight * of.moves_floor(floors.lane_of(side, place)?));
-            floors.places(side).lean(storey).filter_map(of_place).sum::<f64>() * state.plastic
+            let of_place = |(place, weight)| Some(weight * of.moves_floor(floors.lane_of(id, place)?));
+            floors.places(id).lean(storey).filter_map(of_place).sum::<f64>() * state.plastic
         };
         self.elements.iter().zip(elements).map(moved).sum()
     }
 
     /// Lean of a storey in a motion: its drift, and by how much its foundation has turned.
-    fn lean(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
-        let places = self.structure.floors.places(side);
-        let of_place = |(place, weight)| Some(weight * self.displacement(coordinates, (side, place), motion)?);
+    fn lean(&self, coordinates: Coordinates, (id, storey): (BuildingId, usize), motion: &[f64]) -> f64 {
+        let places = self.structure.floors.places(id);
+        let of_place = |(place, weight)| Some(weight * self.displacement(coordinates, (id, place), motion)?);
         places.lean(storey).filter_map(of_place).sum()
     }
 
-    fn displacement(&self, coordinates: Coordinates, (side, place): (Side, Place), motion: &[f64]) -> Option<f64> {
+    fn displacement(&self, coordinates: Coordinates, (id, place): (BuildingId, Place), motion: &[f64]) -> Option<f64> {
         Some(match coordinates {
             Coordinates::Modes => {
-                let body = self.structure.body(side);
-                let shape = body.modes.shape.row(body.row_of(side, place)?);
+                let body = self.structure.body(id);
+                let shape = body.modes.shape.row(body.row_of(id, place)?);
                 shape.iter().zip(&motion[body.range.clone()]).map(|(shape, q)| shape * q).sum::<f64>()
             }
-            Coordinates::Floors => motion[self.structure.floors.lane_of(side, place)?],
+            Coordinates::Floors => motion[self.structure.floors.lane_of(id, place)?],
         })
     }
 

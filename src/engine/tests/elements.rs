@@ -6,7 +6,7 @@ use crate::engine::base::element::ElementState;
 use crate::engine::system::System;
 use crate::engine::system::limits::Limit;
 use crate::engine::yielding::element::ElementOf;
-use crate::scene::{Link, Place, Scene, Side, Slip};
+use crate::scene::{BuildingId, Link, Place, Scene, Slip};
 use nalgebra::{DMatrix, DVector};
 
 /// Two storeys beside one, with a link between the upper floors: all yield.
@@ -18,10 +18,16 @@ fn linked() -> System {
                           post_yield_ratio = 0.05 }\n";
     let mut scene = Scene::from_toml(text).unwrap();
     let slip = Some(Slip { force: 6e4, ratio: 0.0 });
-    scene.links.push(Link { left: Some(Place::Floor(0)), right: None, stiffness: 1e6, dashpot: 0.0, slip: None });
     scene.links.push(Link {
-        left: Some(Place::Floor(1)),
-        right: Some(Place::Floor(0)),
+        left: Some((BuildingId::LEFT, Place::Floor(0))),
+        right: None,
+        stiffness: 1e6,
+        dashpot: 0.0,
+        slip: None,
+    });
+    scene.links.push(Link {
+        left: Some((BuildingId::LEFT, Place::Floor(1))),
+        right: Some((BuildingId::RIGHT, Place::Floor(0))),
         stiffness: 3e7,
         dashpot: 1e5,
         slip,
@@ -33,9 +39,9 @@ fn linked() -> System {
 fn plastic_drifts_move_the_whole_body_and_all_limits() {
     let system = linked();
     let places = [
-        ElementOf::Storey(Side::Left, 0),
-        ElementOf::Storey(Side::Left, 1),
-        ElementOf::Storey(Side::Right, 0),
+        ElementOf::Storey(BuildingId::LEFT, 0),
+        ElementOf::Storey(BuildingId::LEFT, 1),
+        ElementOf::Storey(BuildingId::RIGHT, 0),
         ElementOf::Link(1),
     ];
     assert_eq!(system.elements.iter().map(|of| of.place).collect::<Vec<_>>(), places);
@@ -111,8 +117,8 @@ fn the_drift_from_which_a_storey_falls_moves_with_what_holds_it() {
     let mut scene = Scene::from_toml(text).unwrap();
     let slip = Some(Slip { force: 6e4, ratio: 0.0 });
     scene.links.push(Link {
-        left: Some(Place::Floor(0)),
-        right: Some(Place::Floor(0)),
+        left: Some((BuildingId::LEFT, Place::Floor(0))),
+        right: Some((BuildingId::RIGHT, Place::Floor(0))),
         stiffness: 2e6,
         dashpot: 0.0,
         slip,

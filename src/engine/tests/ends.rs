@@ -115,7 +115,7 @@ fn both_ends_show_that_a_flight_is_free() {
                 (contact.penetration, contact.rate) = pair.penetration(*gap, Motion { q: &base.q, v: &base.v });
             }
             planned.ends.clear();
-            let mut at = At { base, inputs: &Inputs::of([1, 1], false, false), counters: &mut Counters::default() };
+            let mut at = At { base, inputs: &Inputs::of(&[1, 1], false, false), counters: &mut Counters::default() };
             flight.both_ends_hold(system, &mut at, &mut planned, (&mut look, work), None)
         });
         let reached = largest(course(&row, &motion).map(value));
@@ -154,7 +154,7 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
             }
             let mut base = case.for_contact(p.min(2), if p == 3 { 1e9 } else { limit });
             let mut planned = Planned::new(row.sizes.len(), 3);
-            let (inputs, mut counters) = (Inputs::of([1, 1], false, false), Counters::default());
+            let (inputs, mut counters) = (Inputs::of(&[1, 1], false, false), Counters::default());
             if is_flight {
                 base = Base { contacts: base.contacts, rest: base.rest, ..case.base.clone() };
             }
@@ -201,7 +201,7 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
         let bound = threshold(now, |gap| {
             let base = case.for_contact(p, gap);
             let Case { system, work, .. } = &mut case;
-            system.load(&base, &Inputs::of([1, 1], false, false), &mut work.load, &mut work.slope);
+            system.load(&base, &Inputs::of(&[1, 1], false, false), &mut work.load, &mut work.slope);
             let mut solution = Solution::new(system);
             system.expand_exactly(&base, &mut solution, work, time);
             solution.end_at(1.0);
@@ -239,7 +239,7 @@ fn terms_bound_fourth_derivatives_and_drifts() {
         case.base.rest.gaps.fill(1e9);
         let (base, rounding) = (case.for_contact(0, 1e9), 1e-13 * size(&row, &motion));
         let Case { system, work, .. } = &mut case;
-        system.load(&base, &Inputs::of([1, 1], false, false), &mut work.load, &mut work.slope);
+        system.load(&base, &Inputs::of(&[1, 1], false, false), &mut work.load, &mut work.slope);
         let mut solution = Solution::new(system);
         system.expand_exactly(&base, &mut solution, work, time);
         solution.end_at(1.0);

@@ -134,18 +134,18 @@ impl Case {
         let structure = &self.model.system.structure;
         let Some((forces, rates)) = self.flights().forces.and_then(|forces| forces.acting(k)) else { return 0.0 };
         let at = |number: usize| forces[number] + rates[number] * time;
-        let correction = |side, storey| match storey < structure.floors(side) {
-            true => at(structure.floors_of_both() + structure.number(side, storey)),
+        let correction = |id, storey| match storey < structure.floors(id) {
+            true => at(structure.floors_of_all() + structure.number(id, storey)),
             false => 0.0,
         };
         match self.model.watched.rows.at(place) {
-            Some(PeakOf::Acceleration(side, floor)) => {
-                let pushed = correction(side, floor) - correction(side, floor + 1);
-                (at(structure.number(side, floor)) + pushed)
-                    * structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
+            Some(PeakOf::Acceleration(id, floor)) => {
+                let pushed = correction(id, floor) - correction(id, floor + 1);
+                (at(structure.number(id, floor)) + pushed)
+                    * structure.floors.inverse_mass(structure.floors.lane(id, floor))
             }
-            Some(PeakOf::BaseShear(side)) => -correction(side, 0),
-            Some(PeakOf::StoreyShear(side, storey)) => -correction(side, storey),
+            Some(PeakOf::BaseShear(id)) => -correction(id, 0),
+            Some(PeakOf::StoreyShear(id, storey)) => -correction(id, storey),
             _ => 0.0,
         }
     }

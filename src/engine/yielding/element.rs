@@ -10,13 +10,13 @@ use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::yielding::lift::Lift;
 use crate::scene::{NetStorey, Place, Scene};
-use crate::structure::{Side, Structure};
+use crate::structure::{BuildingId, Structure};
 
 /// What an element is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ElementOf {
     /// A storey of a building, counted from 0.
-    Storey(Side, usize),
+    Storey(BuildingId, usize),
     /// A link, counted from 0.
     Link(usize),
 }
@@ -52,8 +52,8 @@ impl ElementOf {
     /// The order of elements: storeys from the left and the bottom, then links.
     pub(crate) fn order(self) -> (usize, usize) {
         match self {
-            ElementOf::Storey(side, storey) => (side as usize, storey),
-            ElementOf::Link(link) => (2, link),
+            ElementOf::Storey(id, storey) => (id.index(), storey),
+            ElementOf::Link(link) => (usize::MAX, link),
         }
     }
 }
@@ -61,11 +61,11 @@ impl ElementOf {
 impl Element {
     /// All elements of a scene that can yield, in their order.
     pub(crate) fn all(scene: &Scene, structure: &Structure) -> Vec<Element> {
-        let of = |side: Side| {
-            let storeys = 0..scene.building(side).mass.len();
-            storeys.filter_map(move |storey| Element::of_storey(scene, structure, (side, storey)))
+        let of = |id: BuildingId| {
+            let storeys = 0..scene.building(id).mass.len();
+            storeys.filter_map(move |storey| Element::of_storey(scene, structure, (id, storey)))
         };
-        let storeys = Side::BOTH.into_iter().flat_map(of);
+        let storeys = structure.ids().flat_map(of);
         let mut all: Vec<Element> =
             storeys.chain((0..scene.links.len()).filter_map(|link| Element::of_link(scene, structure, link))).collect();
         Element::join(&mut all);
@@ -80,19 +80,19 @@ impl Element {
         }
     }
 
-    fn of_storey(scene: &Scene, structure: &Structure, (side, storey): (Side, usize)) -> Option<Element> {
-        let building = scene.building(side);
+    fn of_storey(scene: &Scene, structure: &Structure, (id, storey): (BuildingId, usize)) -> Option<Element> {
+        let building = scene.building(id);
         let of = building.net_storey(storey)?;
-        let places: Vec<(Place, f64)> = structure.floors.places(side).drift(storey).collect();
-        let row = WeightRow::of(structure, places.iter().map(|&(place, weight)| (side, place, weight)));
-        let lift = match structure.body(side).is_linked {
+        let places: Vec<(Place, f64)> = structure.floors.places(id).drift(storey).collect();
+        let row = WeightRow::of(structure, places.iter().map(|&(place, weight)| (id, place, weight)));
+        let lift = match structure.body(id).is_linked {
             true => Lift::all((1.0 - of.ratio) * of.stiffness, &row.modes, structure),
-            false => Lift::above(structure, (side, storey), 1.0 - of.net_ratio()),
+            false => Lift::above(structure, (id, storey), 1.0 - of.net_ratio()),
         };
         Some(Element {
             critical: of.critical_drift(),
             collapse: building.collapse_drift(storey),
-            ..Element::on((ElementOf::Storey(side, storey), of), row, lift)
+            ..Element::on((ElementOf::Storey(id, storey), of), row, lift)
         })
     }
 

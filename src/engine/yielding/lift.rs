@@ -11,7 +11,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::element::ElementState;
-use crate::structure::{Side, Structure, dot};
+use crate::structure::{BuildingId, Structure, dot};
 use std::ops::Range;
 
 #[derive(Clone, Debug)]
@@ -40,12 +40,12 @@ pub(super) enum Lift {
 
 impl Lift {
     /// Of a storey in a building by itself.
-    pub(super) fn above(structure: &Structure, (side, storey): (Side, usize), kept: f64) -> Lift {
-        let count = structure.floors(side);
+    pub(super) fn above(structure: &Structure, (id, storey): (BuildingId, usize), kept: f64) -> Lift {
+        let count = structure.floors(id);
         let lifted: Vec<f64> = (0..count).map(|floor| f64::from(u8::from(floor >= storey))).collect();
         let mut modes = vec![0.0; structure.lanes];
-        structure.add_modal(side, &lifted, &mut modes);
-        let lane = |floor: usize| structure.floors.lane(side as usize, floor);
+        structure.add_modal(id, &lifted, &mut modes);
+        let lane = |floor: usize| structure.floors.lane(id, floor);
         Lift::Above { kept, modes, lanes: lane(storey)..lane(count - 1) + 1 }
     }
 

@@ -4,7 +4,7 @@
 use super::*;
 use crate::FmiVersion;
 use crate::description::Package;
-use crate::engine::{Input, Inputs, Side};
+use crate::engine::{BuildingId, Input, Inputs};
 use crate::scene::{PackagedRecord, Scene};
 use crate::slave::{Call, Interface, Log};
 use proptest::prelude::*;
@@ -397,7 +397,7 @@ fn inputs_are_within_their_limits() {
             slave.run.stop();
         }
         let mut with = |value: f64, slope: f64| {
-            for input in [Input::GroundAcceleration, Input::Force(Side::Right, 0)] {
+            for input in [Input::GroundAcceleration, Input::Force(BuildingId::RIGHT, 0)] {
                 slave.run.set_input(input, value);
                 slave.run.set_input_rate(input, slope);
             }

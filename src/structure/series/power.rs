@@ -58,7 +58,7 @@ impl MotionSeries {
 fn powers_of_single_modes(series: &MotionSeries, structure: &Structure, x: &AtPoints) -> [AtPoints; 2] {
     let (mut momentum, mut viscous) = (AtPoints::default(), AtPoints::default());
     let per_second = 1.0 / series.scale;
-    let modes = structure.participation.iter().zip(&structure.damping).take(structure.modes_of_both());
+    let modes = structure.participation.iter().zip(&structure.damping).take(structure.modes_of_all());
     for (m, (participation, c)) in modes.enumerate() {
         let mut v = AtPoints::default();
         for n in (1..=series.order.min(MAX_TERMS - 1)).rev() {

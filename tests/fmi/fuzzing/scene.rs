@@ -19,7 +19,7 @@ pub fn check(bytes: &[u8]) {
         }
     };
     assert_eq!(scene.check(), Ok(()), "what is read passes its own checks");
-    if scene.ground.record.is_some() || scene.left.mass.len() + scene.right.mass.len() > MOST_FLOORS {
+    if scene.ground.record.is_some() || scene.buildings[0].mass.len() + scene.buildings[1].mass.len() > MOST_FLOORS {
         return;
     }
     if let Err(error) = Model::new(&scene, None) {

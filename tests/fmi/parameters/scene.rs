@@ -39,7 +39,7 @@ fn indexed(name: &str) -> (&str, Option<usize>) {
 fn edits_land_where_they_should() {
     let scene = edited(&[("left.mass[2]", 7.0), ("contact[2].exponent", 2.5), ("right.damping_ratio", 0.3)]);
     let scene = pounding::scene::Scene::from_toml(&scene).unwrap();
-    assert_eq!(scene.left.mass, [3.65, 7.0]);
+    assert_eq!(scene.buildings[0].mass, [3.65, 7.0]);
     assert_eq!(scene.contacts[1].law.exponent, 2.5);
-    assert_eq!(scene.right.damping, pounding::scene::Damping::Ratio(0.3));
+    assert_eq!(scene.buildings[1].damping, pounding::scene::Damping::Ratio(0.3));
 }

@@ -2,7 +2,7 @@
 //! communication point there.
 
 use super::runs::{Subject, Watched, scene_named};
-use pounding::engine::{Input, Side};
+use pounding::engine::{BuildingId, Input};
 
 /// Runs both masters; `change` is called after each event and gives the time to go on to.
 fn compare(change: impl Fn(&mut Watched<'_>, f64) -> f64) {
@@ -36,7 +36,7 @@ fn compare(change: impl Fn(&mut Watched<'_>, f64) -> f64) {
 fn an_input_that_is_set_after_an_event_counts_from_there() {
     compare(|run, goal| {
         let push = 1e5 * (9.0 * run.state.time()).sin();
-        run.state.set_input(Input::Force(Side::Left, 0), push);
+        run.state.set_input(Input::Force(BuildingId::LEFT, 0), push);
         run.state.set_ground_acceleration(0.5);
         goal
     });

@@ -1,7 +1,7 @@
 //! Both sides of an event: what must be equal, what must jump, and by how much.
 
 use super::runs::{Subject, all_scenes, scene_named};
-use pounding::engine::{ContactOutput, Output, Side};
+use pounding::engine::{BuildingId, ContactOutput, Output};
 
 /// Displacements, and velocities where no impulse acts, relative to their largest magnitude.
 #[test]
@@ -87,5 +87,5 @@ fn penetration(p: usize) -> Output {
 
 /// The rate of the penetration of the p-th contact of the frames, which joins the floors of that number.
 fn rate(run: &mut super::runs::Watched<'_>, p: usize) -> f64 {
-    run.value(Output::Velocity(Side::Left, p)) - run.value(Output::Velocity(Side::Right, p))
+    run.value(Output::Velocity(BuildingId::LEFT, p)) - run.value(Output::Velocity(BuildingId::RIGHT, p))
 }

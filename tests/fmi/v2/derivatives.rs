@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use fmi::model_description::fmi2::Causality;
-use pounding::engine::{Model, Output, Point, Side};
+use pounding::engine::{BuildingId, Model, Output, Point};
 
 #[test]
 fn an_input_goes_on_as_a_line_until_it_is_set_again() {
@@ -44,9 +44,9 @@ fn lines_reach_the_engine() {
     let mut state = model.start(0.0);
     state.set_ground_acceleration(0.5);
     state.set_ground_acceleration_rate(-3.0);
-    state.set_floor_force(Side::Left, 1, 4.0);
-    state.set_floor_force_rate(Side::Left, 1, 20.0);
-    state.set_floor_force_rate(Side::Right, 2, -9.0);
+    state.set_floor_force(BuildingId::LEFT, 1, 4.0);
+    state.set_floor_force_rate(BuildingId::LEFT, 1, 20.0);
+    state.set_floor_force_rate(BuildingId::RIGHT, 2, -9.0);
     let mut point = Point::default();
     model.advance(&mut state, 0.7, &mut |_| ()).unwrap();
     let now = model.observe(&state, &mut point);
@@ -67,8 +67,8 @@ fn lines_reach_the_engine() {
         assert_eq!(instance.exit(), OK);
         set(3);
         assert_eq!(instance.step(0.0, 0.7), OK);
-        assert_eq!(instance.real("left.velocity[2]"), now.read(Output::Velocity(Side::Left, 1)), "phase {phase}");
-        assert_eq!(instance.real("right.acceleration[3]"), now.read(Output::Acceleration(Side::Right, 2)));
+        assert_eq!(instance.real("left.velocity[2]"), now.read(Output::Velocity(BuildingId::LEFT, 1)), "phase {phase}");
+        assert_eq!(instance.real("right.acceleration[3]"), now.read(Output::Acceleration(BuildingId::RIGHT, 2)));
         assert_eq!(instance.real("contact[1].impulse"), now.contact(0).impulse);
         assert_eq!(instance.real("ground.acceleration"), 0.5 - 3.0 * 0.7);
     }

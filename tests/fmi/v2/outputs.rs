@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use fmi::model_description::fmi2::Causality;
-use pounding::engine::{ContactPoint, Model, Output, PeakOf, Point, Side, State};
+use pounding::engine::{BuildingId, ContactPoint, Model, Output, PeakOf, Point, State};
 use std::collections::HashMap;
 
 /// Names and values of all outputs and frequencies; counts and Booleans as numbers.
@@ -10,7 +10,7 @@ fn expected(model: &Model, state: &State) -> HashMap<String, f64> {
     let mut point = Point::default();
     let now = model.observe(state, &mut point);
     let mut values = HashMap::from([("impacts".to_owned(), now.read(Output::Impacts))]);
-    for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
+    for (side, name) in [(BuildingId::LEFT, "left"), (BuildingId::RIGHT, "right")] {
         let mut add = |quantity: &str, value| values.insert(format!("{name}.{quantity}"), value);
         add("base_shear", now.read(Output::BaseShear(side)));
         add("peak_base_shear", now.read(Output::Peak(PeakOf::BaseShear(side))));
@@ -105,8 +105,8 @@ fn compare(scene: &str, inputs: &[(&str, f64)], apply: impl Fn(&mut State)) {
 fn under_inputs() {
     compare(SCENE, &[("ground.acceleration", -0.7), ("right.force[2]", -1.5), ("left.force[1]", 2.5)], |state| {
         state.set_ground_acceleration(-0.7);
-        state.set_floor_force(Side::Right, 1, -1.5);
-        state.set_floor_force(Side::Left, 0, 2.5);
+        state.set_floor_force(BuildingId::RIGHT, 1, -1.5);
+        state.set_floor_force(BuildingId::LEFT, 0, 2.5);
     });
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{EngineError, Output, Side};
+use pounding::engine::{BuildingId, EngineError, Output};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ fn free_vibration_stays_in_phase_over_1000_periods() {
         }
         let t = run.state.time();
         // The frequency itself is rounded: 1000 periods turn that into a phase.
-        let error = (run.displacement(Side::Left, 0) - 0.01 * (2.0 * PI * t).cos()).abs();
+        let error = (run.displacement(BuildingId::LEFT, 0) - 0.01 * (2.0 * PI * t).cos()).abs();
         assert!(error < 0.01 * 2e-12, "step {step}: {error:e}");
     }
 }
@@ -50,25 +50,25 @@ fn a_held_ground_acceleration_is_a_shifted_vibration() {
     run.in_steps(0.13, 1.3);
     let w = 2.0 * PI;
     let exact = -2.0 / (w * w) * (1.0 - (w * 1.3).cos());
-    assert_close(run.displacement(Side::Left, 0), exact, 1e-13, "displacement");
+    assert_close(run.displacement(BuildingId::LEFT, 0), exact, 1e-13, "displacement");
     // Absolute acceleration: what an accelerometer on the floor reads, -w^2 u without damping.
-    assert_close(run.read(Output::Acceleration(Side::Left, 0)), -w * w * exact, 1e-13, "acceleration");
-    assert_close(run.read(Output::BaseShear(Side::Left)), w * w * exact, 1e-13, "base shear");
+    assert_close(run.read(Output::Acceleration(BuildingId::LEFT, 0)), -w * w * exact, 1e-13, "acceleration");
+    assert_close(run.read(Output::BaseShear(BuildingId::LEFT)), w * w * exact, 1e-13, "base shear");
     // From now on the ground rests: the vibration goes on about 0.
-    let (u, v) = (run.displacement(Side::Left, 0), run.velocity(Side::Left, 0));
+    let (u, v) = (run.displacement(BuildingId::LEFT, 0), run.velocity(BuildingId::LEFT, 0));
     run.state.set_ground_acceleration(0.0);
     run.to(1.7);
-    assert_close(run.displacement(Side::Left, 0), u * (w * 0.4).cos() + v / w * (w * 0.4).sin(), 1e-12, "after");
+    assert_close(run.displacement(BuildingId::LEFT, 0), u * (w * 0.4).cos() + v / w * (w * 0.4).sin(), 1e-12, "after");
 }
 
 #[test]
 fn a_floor_force_is_a_shifted_vibration() {
     let mut run = Run::new(&pendulum("", "[inputs]\nfloor_forces = true\n[outputs]\nenergy = true"), None);
-    run.state.set_floor_force(Side::Left, 0, 3.0);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 3.0);
     run.in_steps(0.11, 1.1);
     let w = 2.0 * PI;
     let exact = 3.0 / (w * w) * (1.0 - (w * 1.1).cos());
-    assert_close(run.displacement(Side::Left, 0), exact, 1e-13, "displacement");
+    assert_close(run.displacement(BuildingId::LEFT, 0), exact, 1e-13, "displacement");
     let energy = run.energy();
     assert_close(energy.external, 3.0 * exact, 1e-13, "work of the force");
     assert!(energy.residual.abs() < 1e-14, "{energy:?}");
@@ -95,7 +95,7 @@ fn a_record_is_a_ramp_between_its_samples_and_nothing_outside() {
             } else {
                 on_ramp(0.5) * (w * (t - 0.5)).cos() + slope(0.5) / w * (w * (t - 0.5)).sin()
             };
-            let error = (run.displacement(Side::Left, 0) - exact).abs();
+            let error = (run.displacement(BuildingId::LEFT, 0) - exact).abs();
             assert!(error < 1e-15, "t = {t}: {error:e}");
             let ground = if t < 0.5 { 8.0 * t } else { 0.0 };
             assert!((run.point.ground_acceleration - ground).abs() < 1e-14 || (t - 0.5).abs() < 1e-12);
@@ -115,14 +115,14 @@ fn a_run_may_start_within_after_and_long_before_the_record() {
         run.to(start + duration);
         let exact = 0.01 * (w * duration).cos();
         let rounding = 0.01 * w * f64::EPSILON * start.abs();
-        assert!((run.displacement(Side::Left, 0) - exact).abs() < 1e-16 + 1e-15 + rounding, "from {start}");
+        assert!((run.displacement(BuildingId::LEFT, 0) - exact).abs() < 1e-16 + 1e-15 + rounding, "from {start}");
     }
     // Within: from t = 0.2 the ramp has 1.6 m/s2 already.
     let mut run = Run::from(&scene, Some(&record), 0.2);
     run.to(0.45);
     let t = 0.25;
     let exact = 0.01 * (w * t).cos() - 1.6 / (w * w) * (1.0 - (w * t).cos()) - 8.0 / (w * w) * (t - (w * t).sin() / w);
-    assert_close(run.displacement(Side::Left, 0), exact, 1e-13, "within");
+    assert_close(run.displacement(BuildingId::LEFT, 0), exact, 1e-13, "within");
 }
 
 /// Times at which 0.01 sin(2 pi t) first reaches a gap.
@@ -160,7 +160,7 @@ fn entry_and_release_within_one_interval_are_both_seen() {
     short.in_steps(0.001, 20.0);
     assert_eq!(long.contact(0).impacts, short.contact(0).impacts);
     assert!(long.contact(0).impacts >= 20);
-    let difference = (long.displacement(Side::Left, 0) - short.displacement(Side::Left, 0)).abs();
+    let difference = (long.displacement(BuildingId::LEFT, 0) - short.displacement(BuildingId::LEFT, 0)).abs();
     // Elastic impacts for ever: rounding grows, but slowly.
     assert!(difference < 1e-11, "{difference:e}");
 }
@@ -244,7 +244,7 @@ fn floors_that_touch_without_pressing_are_not_in_contact() {
         run.to(f64::from(k + 1) * 0.05);
     }
     assert_eq!(run.point.impacts, 0);
-    assert!(run.displacement(Side::Left, 1).abs() > 1e-3);
+    assert!(run.displacement(BuildingId::LEFT, 1).abs() > 1e-3);
 }
 
 #[test]
@@ -268,8 +268,8 @@ fn two_pairs_that_meet_at_the_same_instant_both_begin_there() {
         for (episode, floor) in run.episodes.iter().zip([0, 1]) {
             assert_close(episode.start, 0.02, 1e-14, "entry");
             assert_close(episode.separation_velocity, 0.5, 1e-12, "equal masses swap velocities");
-            assert!(run.velocity(Side::Left, floor).abs() < 1e-12);
-            assert_close(run.velocity(Side::Right, floor), 0.5, 1e-12, "right floor");
+            assert!(run.velocity(BuildingId::LEFT, floor).abs() < 1e-12);
+            assert_close(run.velocity(BuildingId::RIGHT, floor), 0.5, 1e-12, "right floor");
         }
     }
 }
@@ -301,7 +301,7 @@ fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
 #[test]
 fn a_motion_whose_energy_overflows_is_refused() {
     let mut run = Run::new(&pendulum("", "[inputs]\nfloor_forces = true\n[outputs]\nenergy = true"), None);
-    run.state.set_floor_force(Side::Left, 0, 1e300);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 1e300);
     // Displacements of 1e299 m are finite, their squares are not.
     let refused = (1..=20).find_map(|k| run.model.advance(&mut run.state, f64::from(k) * 0.05, &mut |_| ()).err());
     let refused = refused.unwrap();

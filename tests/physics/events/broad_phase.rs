@@ -76,7 +76,7 @@ fn a_body_that_gathers_speed_enters_on_time() {
     for k in 1..60 {
         let (angle, omega) = (0.02 + 0.008 * f64::from(k), 0.7 + 0.1 * f64::from(k));
         let mut scene = oscillator([omega * omega, 1.0], omega * FRAC_1_SQRT_2, angle.sin());
-        scene.left.initial_displacement = vec![-FRAC_1_SQRT_2];
+        scene.buildings[0].initial_displacement = vec![-FRAC_1_SQRT_2];
         let (start, _) = entry(&scene, &record(STEP, &[0.0; 200]), 5.0);
         assert_close(start, (angle + FRAC_PI_4) / omega, 1e-11, "entry");
     }
@@ -167,7 +167,7 @@ fn a_body_that_turns_round_just_beyond_the_gap_is_not_dismissed() {
         let reach = (1.0 + speed * speed / (omega * omega)).sqrt();
         let impacts = |gap: f64| {
             let mut scene = oscillator([omega * omega, 1.0], speed, gap);
-            scene.left.initial_displacement = vec![1.0];
+            scene.buildings[0].initial_displacement = vec![1.0];
             Run::new(&scene, Some(&record(STEP, &[0.0; 200]))).to(2.0).point.impacts
         };
         assert!(impacts(reach * (1.0 - 1e-9)) >= 1, "{k}: missed");
@@ -181,8 +181,8 @@ fn a_body_that_turns_round_just_beyond_the_gap_is_not_dismissed() {
 fn a_swing_between_two_samples_is_seen() {
     let (swing, gap, speed, quickness) = (0.01, 0.05, 0.1, 2.0 * PI / STEP);
     let mut scene = oscillator([quickness * quickness, FREE], 0.0, gap);
-    scene.left.initial_displacement = vec![-swing];
-    scene.right.initial_velocity = vec![-speed];
+    scene.buildings[0].initial_displacement = vec![-swing];
+    scene.buildings[1].initial_velocity = vec![-speed];
     let overlap = |time: f64| -swing * (quickness * time).cos() - gap + speed * time;
     let top = (0..).map(|k| (f64::from(k) + 0.5) * STEP).find(|top| overlap(*top) > 0.0).unwrap();
     let (mut apart, mut together) = (top - 0.5 * STEP, top);

@@ -1,7 +1,7 @@
 //! What begins, or does not, while another pair is in contact; each with an answer in closed form.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 
 /// Two floors a side on springs so soft that they are free; the left floors move, the right ones are at rest.
@@ -160,7 +160,7 @@ fn floors_that_move_alike_do_not_meet_beside_another_contact() {
         let mut run = Run::new(&scene, Some(&record(0.02, &motion)));
         run.in_steps(0.02, 0.2);
         assert!(run.contact(0).active, "the top floors are still pressed");
-        assert!(run.displacement(Side::Left, 0).abs() > 1e-3, "they move");
+        assert!(run.displacement(BuildingId::LEFT, 0).abs() > 1e-3, "they move");
         assert_eq!(run.contact(1).impacts, 0, "{storeys} storeys");
     }
 }

@@ -1,19 +1,19 @@
 //! Reading a solution a hair beside a sample of the record, where masters' rounded times are, and anywhere between.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::{Output, Side};
+use pounding::engine::{BuildingId, Output};
 
 const STEP: f64 = 1.0 / 64.0;
 
 /// Displacement, velocity and acceleration of all floors, relative to the ground, and the ground's acceleration.
 fn floors(run: &Run) -> Vec<[f64; 3]> {
-    let of = |side: Side| {
+    let of = |side: BuildingId| {
         (0..run.model.floors(side)).map(move |floor| {
             let acceleration = run.read(Output::Acceleration(side, floor)) - run.point.ground_acceleration;
             [run.displacement(side, floor), run.velocity(side, floor), acceleration]
         })
     };
-    of(Side::Left).chain(of(Side::Right)).collect()
+    of(BuildingId::LEFT).chain(of(BuildingId::RIGHT)).collect()
 }
 
 /// A scene with coupled modes where wanted, and a record without a sample like the next.

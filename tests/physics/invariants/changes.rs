@@ -1,11 +1,12 @@
 //! What must not matter of a scene: each change makes of a case another one that tells the same motion.
 
 use super::case::{Case, Units};
+use crate::common::other;
 use crate::common::problems::laws::contact;
-use pounding::engine::{FoundationOutput as F, Input, LinkOutput as L, Output, PeakOf, Side, YieldingOf as Y};
+use pounding::engine::{BuildingId, FoundationOutput as F, Input, LinkOutput as L, Output, PeakOf, YieldingOf as Y};
 use pounding::record::STANDARD_GRAVITY;
 use pounding::scene::{
-    Building, ContactPair, Damping, Face, Foundation, Link, PDelta, Scaling, Scene, Slip, Stiffness,
+    Building, ContactPair, Damping, Face, Foundation, Link, PDelta, Place, Scaling, Scene, Slip, Stiffness,
 };
 
 /// s, 2^20: so many times are exact that much later, and the steps between them.
@@ -15,11 +16,13 @@ const LATER: f64 = 1_048_576.0;
 pub fn mirrored(case: &Case) -> Case {
     let mut case = turned_round(case);
     let scene = &mut case.scene;
-    std::mem::swap(&mut scene.left, &mut scene.right);
+    scene.buildings.reverse();
+    scene.buildings.iter_mut().zip(["left", "right"]).for_each(|(building, name)| building.name = name.into());
     for pair in &mut scene.contacts {
         (pair.left, pair.right) = (mirrored_face(pair.right), mirrored_face(pair.left));
     }
-    scene.links.iter_mut().for_each(|link| (link.left, link.right) = (link.right, link.left));
+    let mirrored = |end: Option<(BuildingId, Place)>| end.map(|(id, place)| (other(id), place));
+    scene.links.iter_mut().for_each(|link| (link.left, link.right) = (mirrored(link.right), mirrored(link.left)));
     for shown in &mut case.shown {
         // What the ends of a link do to each other is the same from both sides, so it is turned back.
         shown.sign *= if matches!(shown.of, Output::Link(..)) { sign(shown.of) } else { 1.0 };
@@ -27,7 +30,7 @@ pub fn mirrored(case: &Case) -> Case {
     }
     for driven in &mut case.driven {
         if let Input::Force(side, _) | Input::Correction(side, _) = &mut driven.input {
-            *side = side.opposite();
+            *side = other(*side);
         }
     }
     case
@@ -35,9 +38,9 @@ pub fn mirrored(case: &Case) -> Case {
 
 fn mirrored_face(face: Face) -> Face {
     match face {
-        Face::Floor(side, floor) => Face::Floor(side.opposite(), floor),
-        Face::Columns { side, storey, position, shape } => {
-            Face::Columns { side: side.opposite(), storey, position, shape }
+        Face::Floor(side, floor) => Face::Floor(other(side), floor),
+        Face::Columns { building: side, storey, position, shape } => {
+            Face::Columns { building: other(side), storey, position, shape }
         }
         Face::Wall => Face::Wall,
     }
@@ -46,7 +49,7 @@ fn mirrored_face(face: Face) -> Face {
 fn on_the_other_side(mut of: Output) -> Output {
     use Output::{Acceleration, BaseShear, CollapseTime, Collapsed, Displacement, Foundation, Velocity};
     use Output::{OfStorey, OfYielding, Peak, Yielding};
-    let side: Option<&mut Side> = match &mut of {
+    let side: Option<&mut BuildingId> = match &mut of {
         Displacement(side, _) | Velocity(side, _) | Acceleration(side, _) | Yielding(side, _) => Some(side),
         BaseShear(side) | Collapsed(side) | CollapseTime(side) | Foundation(side, _) => Some(side),
         OfStorey(_, side, _) | OfYielding(_, side, _) => Some(side),
@@ -58,7 +61,7 @@ fn on_the_other_side(mut of: Output) -> Output {
         _ => panic!("on which side is {of:?}?"),
     };
     if let Some(side) = side {
-        *side = side.opposite();
+        *side = other(*side);
     }
     of
 }
@@ -70,8 +73,7 @@ pub fn the_other_way(case: &Case) -> Option<Case> {
 
 fn turned_round(case: &Case) -> Case {
     let mut case = case.clone();
-    let Scene { left, right, .. } = &mut case.scene;
-    for building in [left, right] {
+    for building in &mut case.scene.buildings {
         building.initial_displacement.iter_mut().chain(&mut building.initial_velocity).for_each(|x| *x = -*x);
     }
     case.record.iter_mut().flat_map(|record| &mut record.accelerations).for_each(|a| *a = -*a);
@@ -184,7 +186,7 @@ fn pair(floors: (usize, usize), gap: f64, law: &str) -> ContactPair {
 pub fn in_units(case: &Case, units: Units) -> Case {
     let mut case = case.clone();
     let scene = &mut case.scene;
-    for building in [&mut scene.left, &mut scene.right] {
+    for building in &mut scene.buildings {
         building_in_units(building, &units);
     }
     for pair in &mut scene.contacts {
@@ -264,5 +266,5 @@ pub fn scales_exactly(scene: &Scene) -> bool {
         let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
         rocks && !matches!(building.damping, Damping::Dashpots(_) | Damping::Matrix(_))
     };
-    scene.contacts.iter().all(has_root) && !mixes(&scene.left) && !mixes(&scene.right)
+    scene.contacts.iter().all(has_root) && !mixes(&scene.buildings[0]) && !mixes(&scene.buildings[1])
 }

@@ -6,7 +6,7 @@ use super::compare::{same_bits, same_episodes};
 use super::scenes::Row;
 use crate::common::Run;
 use crate::peaks_whenever::Sequence;
-use pounding::engine::{SavedState, Side};
+use pounding::engine::{BuildingId, SavedState};
 
 /// Events of a run at which it is looked at closely.
 const EVENTS: usize = 6;
@@ -163,7 +163,7 @@ fn go_and_come_back(row: &Row, run: &mut Run, ahead: f64, is_saved: bool) -> Res
 /// How near the lowest floor on the left and the highest on the right come to each other, m, between which nothing is; `None`
 /// where there are no two buildings.
 pub fn nearest(case: &Case) -> Option<((usize, usize), f64)> {
-    let [left, right] = [&case.scene.left, &case.scene.right].map(|building| building.mass.len());
+    let [left, right] = [&case.scene.buildings[0], &case.scene.buildings[1]].map(|building| building.mass.len());
     let is_there = case.scene.contacts.iter().any(|pair| pair.floors() == Some([1, right]));
     if left == 0 || right == 0 || is_there {
         return None;
@@ -177,7 +177,8 @@ pub fn nearest(case: &Case) -> Option<((usize, usize), f64)> {
         let here = run.state.clone();
         for part in 1..=8 {
             run.to(case.own_time(time + MASTER * f64::from(part) / 8.0));
-            nearest = nearest.max(run.displacement(Side::Left, 0) - run.displacement(Side::Right, right - 1));
+            nearest =
+                nearest.max(run.displacement(BuildingId::LEFT, 0) - run.displacement(BuildingId::RIGHT, right - 1));
         }
         run.state = here;
     }

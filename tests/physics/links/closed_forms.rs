@@ -3,7 +3,7 @@
 
 use super::devices::{Pair, between, of_link, slipping};
 use crate::bilinear::Oscillator;
-use pounding::engine::{LinkOutput, PeakOf, Side};
+use pounding::engine::{BuildingId, LinkOutput, PeakOf};
 
 /// Of one mass on a spring and a dashpot from rest position, with a speed: displacement and velocity.
 fn free((w, decay): (f64, f64), speed: f64, t: f64) -> (f64, f64) {
@@ -38,7 +38,7 @@ fn a_spring_and_a_dashpot_between_masses_that_move_against_each_other() {
                 let error = (got - exact).abs() / size;
                 assert!(error < 1e-12, "{of}, {what}: {got:e} not {exact:e}: {error:.1e}");
             };
-            for (side, sign) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
+            for (side, sign) in [(BuildingId::LEFT, 1.0), (BuildingId::RIGHT, -1.0)] {
                 near(run.displacement(side, 0), sign * x, speed / w, "displacement");
                 near(run.velocity(side, 0), sign * v, speed, "velocity");
             }
@@ -87,7 +87,7 @@ fn masses_that_move_together_do_not_feel_what_links_them() {
         for k in 1..=100 {
             let t = 0.07 * f64::from(k);
             run.to(t);
-            for side in [Side::Left, Side::Right] {
+            for side in [BuildingId::LEFT, BuildingId::RIGHT] {
                 let error = (run.displacement(side, 0) - speed / w * (w * t).sin()).abs() * w / speed;
                 assert!(error < 1e-12, "{link:?}, {t} s: {error:.1e}");
             }
@@ -140,7 +140,7 @@ fn compare(run: &crate::common::Run, (exact, kept): (&Oscillator, f64), speed: f
         assert!(error < 1e-12, "{of}, {what}, {} s: {got:e} not {exact_value:e}: {error:.1e}", exact.time);
     };
     let reach = speed / exact.w;
-    for (side, sign) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
+    for (side, sign) in [(BuildingId::LEFT, 1.0), (BuildingId::RIGHT, -1.0)] {
         near(run.displacement(side, 0), sign * exact.drift(), reach, "displacement");
         near(run.velocity(side, 0), sign * exact.rate, speed, "velocity");
     }

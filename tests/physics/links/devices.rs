@@ -1,19 +1,25 @@
 //! Links as the tests of this group say them, what is read of them, and two single masses between which they are.
 
 use crate::common::{Run, scene};
-use pounding::engine::{LinkOutput, Output, PeakOf, Side};
+use pounding::engine::{BuildingId, LinkOutput, Output, PeakOf};
 use pounding::record::Record;
 use pounding::scene::{Link, Place, Scene, Slip};
 
 /// Between two floors, counted from 1.
 pub fn between(left: usize, right: usize, stiffness: f64, dashpot: f64) -> Link {
-    Link { left: Some(Place::Floor(left - 1)), right: Some(Place::Floor(right - 1)), stiffness, dashpot, slip: None }
+    Link {
+        left: Some((BuildingId::LEFT, Place::Floor(left - 1))),
+        right: Some((BuildingId::RIGHT, Place::Floor(right - 1))),
+        stiffness,
+        dashpot,
+        slip: None,
+    }
 }
 
 /// Between a floor of one building, counted from 1, and the ground.
-pub fn to_wall(side: Side, floor: usize, stiffness: f64, dashpot: f64) -> Link {
-    let floor_of = |building| (building == side).then(|| Place::Floor(floor - 1));
-    Link { left: floor_of(Side::Left), right: floor_of(Side::Right), stiffness, dashpot, slip: None }
+pub fn to_wall(side: BuildingId, floor: usize, stiffness: f64, dashpot: f64) -> Link {
+    let floor_of = |id| (id == side).then(|| (id, Place::Floor(floor - 1)));
+    Link { left: floor_of(BuildingId::LEFT), right: floor_of(BuildingId::RIGHT), stiffness, dashpot, slip: None }
 }
 
 /// The same link, whose spring slips at a force, N.
@@ -57,9 +63,9 @@ pub fn bits(run: &Run, links: usize) -> Vec<u64> {
 }
 
 /// Both floors of two buildings of one storey, or all of one, left ones first.
-pub fn floors(run: &Run) -> Vec<(Side, usize)> {
+pub fn floors(run: &Run) -> Vec<(BuildingId, usize)> {
     let of = |side| (0..run.model.floors(side)).map(move |floor| (side, floor));
-    of(Side::Left).chain(of(Side::Right)).collect()
+    of(BuildingId::LEFT).chain(of(BuildingId::RIGHT)).collect()
 }
 
 /// Displacements and velocities of all floors, left ones first.

@@ -3,7 +3,7 @@
 use super::devices::{Pair, between, linked, of_link, slipping};
 use crate::bilinear::Oscillator;
 use crate::common::Run;
-use pounding::engine::{LinkOutput, Side};
+use pounding::engine::{BuildingId, LinkOutput};
 use pounding::record::Record;
 use pounding::scene::{Link, Scene};
 
@@ -31,8 +31,9 @@ fn scene() -> Scene {
 fn assert_like(run: &Run, exact: &Oscillator, what: &str) {
     let reach = LIMIT + exact.furthest + exact.drift().abs();
     let slips = [LinkOutput::Slip, LinkOutput::SlipTravel].map(|of| 0.5 * of_link(run, 0, of));
-    let left = [run.displacement(Side::Left, 0), run.velocity(Side::Left, 0) / exact.w];
-    let right = [run.displacement(Side::Right, 0), run.velocity(Side::Right, 0) / exact.w].map(|value| -value);
+    let left = [run.displacement(BuildingId::LEFT, 0), run.velocity(BuildingId::LEFT, 0) / exact.w];
+    let right =
+        [run.displacement(BuildingId::RIGHT, 0), run.velocity(BuildingId::RIGHT, 0) / exact.w].map(|value| -value);
     for (of, got, exact_value) in [
         ("slip", slips[0], exact.plastic),
         ("slip travel", slips[1], exact.cumulative),
@@ -59,10 +60,10 @@ fn follow(mut run: Run, start: Oscillator, what: &str) {
 fn at_the_start() {
     for (drift, rate) in [(LIMIT, 0.25), (LIMIT, -0.25), (LIMIT, 0.0), (3.0 * LIMIT, 0.25), (-3.0 * LIMIT, 0.4)] {
         let mut scene = scene();
-        scene.left.initial_displacement = vec![drift];
-        scene.right.initial_displacement = vec![-drift];
-        scene.left.initial_velocity = vec![rate];
-        scene.right.initial_velocity = vec![-rate];
+        scene.buildings[0].initial_displacement = vec![drift];
+        scene.buildings[1].initial_displacement = vec![-drift];
+        scene.buildings[0].initial_velocity = vec![rate];
+        scene.buildings[1].initial_velocity = vec![-rate];
         let plastic = drift.signum() * (drift.abs() - LIMIT).max(0.0);
         let start = Oscillator {
             elastic: drift - plastic,

@@ -4,7 +4,7 @@
 use super::devices::{Difference, between, bits, linked, motion, of_link, shaken, slipping, to_wall};
 use crate::common::{Run, record};
 use crate::random_frames::frame;
-use pounding::engine::{LinkOutput, Side};
+use pounding::engine::{BuildingId, LinkOutput};
 use pounding::record::Record;
 use pounding::scene::{Link, Scene, Slip};
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn links() -> Vec<Link> {
     vec![
         slipping(between(2, 2, 3e7, 0.0), 4e4, 0.0),
         between(1, 1, 0.0, 2e5),
-        slipping(to_wall(Side::Right, 3, 8e6, 1e5), 2e4, 0.1),
+        slipping(to_wall(BuildingId::RIGHT, 3, 8e6, 1e5), 2e4, 0.1),
         between(1, 3, 4e6, 0.0),
     ]
 }
@@ -105,8 +105,8 @@ proptest! {
     fn random_links(frames in [frame(4), frame(4)], sizes in prop::collection::vec((-3.0..1.0_f64, -3.0..0.5_f64, -3.0..0.5_f64), 4), ratio in 0.0..0.9_f64) {
         let text = format!("{}{}", frames[0].toml("left"), frames[1].toml("right"));
         let mut scene = linked(&text, &[]);
-        let soft = scene.left.stiffness.of_storey(0).unwrap().min(scene.right.stiffness.of_storey(0).unwrap());
-        let (lefts, rights, mass) = (scene.left.mass.len(), scene.right.mass.len(), scene.left.mass[0].min(scene.right.mass[0]));
+        let soft = scene.buildings[0].stiffness.of_storey(0).unwrap().min(scene.buildings[1].stiffness.of_storey(0).unwrap());
+        let (lefts, rights, mass) = (scene.buildings[0].mass.len(), scene.buildings[1].mass.len(), scene.buildings[0].mass[0].min(scene.buildings[1].mass[0]));
         scene.links = sizes.iter().enumerate().map(|(i, (k, c, force))| {
             let [stiffness, dashpot, force] = [10.0_f64.powf(*k) * soft, 10.0_f64.powf(*c) * (soft * mass).sqrt(), 10.0_f64.powf(*force) * mass];
             let link = between(i % lefts + 1, i * 3 % rights + 1, stiffness, if i % 2 == 0 { dashpot } else { 0.0 });

@@ -4,7 +4,7 @@
 use super::devices::{Difference, Pair, between, linked, motion, shaken, to_wall};
 use crate::common::{Run, record};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use pounding::engine::{LinkOutput, Output, PeakOf, Side};
+use pounding::engine::{BuildingId, LinkOutput, Output, PeakOf};
 use pounding::record::Record;
 use pounding::scene::{Building, Damping, Link, Scene, Stiffness};
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ fn joined_by(link: &Link, lefts: usize, n: usize) -> DMatrix<f64> {
     let mut row = DVector::zeros(n);
     link.ends().for_each(|end| {
         let floor = end.place.floor().unwrap();
-        row[if end.side == Side::Left { floor } else { lefts + floor }] = end.weight;
+        row[if end.building == BuildingId::LEFT { floor } else { lefts + floor }] = end.weight;
     });
     &row * row.transpose()
 }
@@ -60,7 +60,7 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
 
 /// All floors of a scene without contacts as one building by matrices, links and all.
 fn as_one_building(scene: &Scene) -> Scene {
-    let (left, right) = (&scene.left, &scene.right);
+    let (left, right) = (&scene.buildings[0], &scene.buildings[1]);
     let (lefts, n) = (left.mass.len(), left.mass.len() + right.mass.len());
     let (mut k, mut c) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
     for (first, building) in [(0, left), (lefts, right)] {
@@ -75,10 +75,10 @@ fn as_one_building(scene: &Scene) -> Scene {
     }
     let mut one = scene.clone();
     let both = |of: fn(&Building) -> &Vec<f64>| [of(left).as_slice(), of(right)].concat();
-    one.left = Building::new(both(|b| &b.mass), Stiffness::Matrix(rows(&k)), Damping::Matrix(rows(&c)));
-    one.left.initial_displacement = both(|b| &b.initial_displacement);
-    one.left.initial_velocity = both(|b| &b.initial_velocity);
-    one.right = Building::absent();
+    one.buildings[0] = Building::new("left", both(|b| &b.mass), Stiffness::Matrix(rows(&k)), Damping::Matrix(rows(&c)));
+    one.buildings[0].initial_displacement = both(|b| &b.initial_displacement);
+    one.buildings[0].initial_velocity = both(|b| &b.initial_velocity);
+    one.buildings[1] = Building::absent("right");
     one.links.clear();
     one
 }
@@ -97,13 +97,13 @@ fn apart(scene: &Scene, record: &Record) -> (f64, [Run; 2]) {
 
 /// What a link shows beside the floors of the building that stands for all.
 fn check_links(scene: &Scene, [linked, one]: &[Run; 2]) {
-    let lefts = scene.left.mass.len();
+    let lefts = scene.buildings[0].mass.len();
     let largest = motion(one).map(|values| values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs())));
     for (l, link) in scene.links.iter().enumerate() {
-        let sum = |read: fn(&Run, Side, usize) -> f64| {
-            let floor_of = |side, floor| if side == Side::Left { floor } else { lefts + floor };
-            let ends = link.ends().map(|end| (end.weight, floor_of(end.side, end.place.floor().unwrap())));
-            ends.map(|(weight, floor)| weight * read(one, Side::Left, floor)).sum::<f64>()
+        let sum = |read: fn(&Run, BuildingId, usize) -> f64| {
+            let floor_of = |side, floor| if side == BuildingId::LEFT { floor } else { lefts + floor };
+            let ends = link.ends().map(|end| (end.weight, floor_of(end.building, end.place.floor().unwrap())));
+            ends.map(|(weight, floor)| weight * read(one, BuildingId::LEFT, floor)).sum::<f64>()
         };
         let (e, rate) = (sum(Run::displacement), sum(Run::velocity));
         let force = link.stiffness * e + link.dashpot * rate;
@@ -133,15 +133,15 @@ fn any_linked() -> impl Strategy<Value = Scene> {
     let links = prop::collection::vec((values, 0..3_u8, any::<[prop::sample::Index; 2]>()), 1..=4);
     (building("left"), building("right"), links).prop_map(|(left, right, links)| {
         let mut scene = linked(&format!("{left}{right}"), &[]);
-        let floors = [&scene.left, &scene.right].map(|building| building.mass.len());
+        let floors = [&scene.buildings[0], &scene.buildings[1]].map(|building| building.mass.len());
         scene.links = links
             .iter()
             .enumerate()
             .map(|(i, ((stiffness, dashpot), kind, at))| {
                 let (k, c) = (if *dashpot == 0.0 { stiffness.max(1e5) } else { *stiffness }, *dashpot);
                 match kind {
-                    1 if i > 0 => to_wall(Side::Left, at[0].index(floors[0]) + 1, k, c),
-                    2 if i > 0 => to_wall(Side::Right, at[1].index(floors[1]) + 1, k, c),
+                    1 if i > 0 => to_wall(BuildingId::LEFT, at[0].index(floors[0]) + 1, k, c),
+                    2 if i > 0 => to_wall(BuildingId::RIGHT, at[1].index(floors[1]) + 1, k, c),
                     _ => between(at[0].index(floors[0]) + 1, at[1].index(floors[1]) + 1, k, c),
                 }
             })
@@ -192,14 +192,15 @@ fn a_device_to_the_ground_stiffens_its_floor() {
                    damping_formula = \"exact\"\nstiffness = 2e9\nrestitution = 0.6\n";
     let left = "[left]\nmass = [4e4, 4e4, 3e4]\nstiffness = [3e7, 2.5e7, 2e7]\n\
                 damping = { matrix = [[9e4, -3e4, 0.0], [-3e4, 7e4, -2e4], [0.0, -2e4, 4e4]] }\n";
-    let link = to_wall(Side::Left, 3, 1.5e7, 2e5);
+    let link = to_wall(BuildingId::LEFT, 3, 1.5e7, 2e5);
     let scene = linked(&format!("{left}{right}{contact}"), std::slice::from_ref(&link));
     let mut stiffened = scene.clone();
     stiffened.links.clear();
-    let (mut k, mut c) = (stiffness_of(&scene.left), damping_of(&scene.left));
+    let (mut k, mut c) = (stiffness_of(&scene.buildings[0]), damping_of(&scene.buildings[0]));
     k[(2, 2)] += link.stiffness;
     c[(2, 2)] += link.dashpot;
-    (stiffened.left.stiffness, stiffened.left.damping) = (Stiffness::Matrix(rows(&k)), Damping::Matrix(rows(&c)));
+    (stiffened.buildings[0].stiffness, stiffened.buildings[0].damping) =
+        (Stiffness::Matrix(rows(&k)), Damping::Matrix(rows(&c)));
     let mut runs = [scene, stiffened].map(|scene| shaken(scene, &shaking()));
     let mut difference = Difference::default();
     for step in 1..=80 {
@@ -211,8 +212,8 @@ fn a_device_to_the_ground_stiffens_its_floor() {
     println!("off by {:.1e}", difference.worst());
     assert!(difference.worst() < 3e-14, "off by {:.1e}", difference.worst());
     // The device is held by the ground, not by the building.
-    let carried = linked.read(Output::BaseShear(Side::Left)) + linked.read(Output::Link(0, LinkOutput::Force));
-    let whole = other.read(Output::BaseShear(Side::Left));
+    let carried = linked.read(Output::BaseShear(BuildingId::LEFT)) + linked.read(Output::Link(0, LinkOutput::Force));
+    let whole = other.read(Output::BaseShear(BuildingId::LEFT));
     assert!((carried - whole).abs() < 1e-12 * 3e7 * 0.01, "{carried:e} N and {whole:e} N");
 }
 
@@ -230,9 +231,9 @@ fn a_stiff_link_ties_two_masses_into_one() {
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for k in 1..=100 {
         let time = 0.05 * f64::from(k);
-        let exact = merged.to(time).displacement(Side::Left, 0);
+        let exact = merged.to(time).displacement(BuildingId::LEFT, 0);
         tied.to(time);
-        for side in [Side::Left, Side::Right] {
+        for side in [BuildingId::LEFT, BuildingId::RIGHT] {
             worst = worst.max((tied.displacement(side, 0) - exact).abs());
         }
         largest = largest.max(exact.abs());
@@ -263,7 +264,7 @@ fn a_link_of_no_strength_is_none() {
             between(1, 2, 0.0, 1e-300),
             between(1, 1, 1e-300, 1e-300),
             between(2, 1, 0.0, 0.0),
-            to_wall(Side::Right, 2, 0.0, 0.0),
+            to_wall(BuildingId::RIGHT, 2, 0.0, 0.0),
         ] {
             let mut joined = shaken(linked(text, std::slice::from_ref(&weak)), &shaking());
             let mut difference = Difference::default();
@@ -291,10 +292,10 @@ fn a_heavy_neighbour_is_as_good_as_the_ground() {
         )
     };
     let mut beside = Run::new(&linked(&text(1e20), &[between(1, 1, 3e6, 2e4)]), None);
-    let mut held = Run::new(&linked(&text(1e20), &[to_wall(Side::Left, 1, 3e6, 2e4)]), None);
+    let mut held = Run::new(&linked(&text(1e20), &[to_wall(BuildingId::LEFT, 1, 3e6, 2e4)]), None);
     for k in 1..=60 {
         let time = 0.05 * f64::from(k);
-        let [one, other] = [&mut beside, &mut held].map(|run| run.to(time).displacement(Side::Left, 0));
+        let [one, other] = [&mut beside, &mut held].map(|run| run.to(time).displacement(BuildingId::LEFT, 0));
         assert!((one - other).abs() < 1e-12 * 0.03, "{one:e} and {other:e} at {time} s");
     }
 }

@@ -3,7 +3,7 @@
 
 use super::devices::{between, linked};
 use crate::common::Run;
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 
 /// N/m: columns of the left storey, what gravity takes of them, the right storey.
 const COLUMNS: f64 = 2e7;
@@ -37,7 +37,7 @@ fn leaning(spring: f64, drift: f64) -> Run {
 }
 
 fn residual(run: &Run) -> f64 {
-    run.storey(Side::Left, 0).residual
+    run.storey(BuildingId::LEFT, 0).residual
 }
 
 /// Rest: (k - g + h) d = k p, with p the drift beyond the yield drift.
@@ -58,7 +58,7 @@ fn a_neighbour_holds_what_would_fall_alone() {
         let expected = at_rest(spring, drift);
         assert!((residual(&run) - expected).abs() < 1e-14, "{} not {expected} m", residual(&run));
         run.to(60.0);
-        let (told, stands) = (residual(&run), run.displacement(Side::Left, 0));
+        let (told, stands) = (residual(&run), run.displacement(BuildingId::LEFT, 0));
         assert!((told - stands).abs() < 1e-12, "{spring:e} N/m, {drift} m: stands at {stands}, not at {told}");
     }
 }
@@ -72,7 +72,7 @@ fn beyond_the_critical_drift_of_both_it_falls() {
             let told = residual(&run);
             let expected = if falls { sign * critical() } else { at_rest(WEAK, drift) };
             assert!((told - expected).abs() < 1e-14, "{share} of the critical drift: {told} not {expected} m");
-            let moved = run.to(4.0).displacement(Side::Left, 0) - drift;
+            let moved = run.to(4.0).displacement(BuildingId::LEFT, 0) - drift;
             assert_eq!(sign * moved > 0.0, falls, "{share} of the critical drift: moves by {moved} m");
         }
     }

@@ -3,7 +3,7 @@
 use super::devices::{Pair, between, linked, of_link, slipping};
 use crate::bilinear::Oscillator;
 use crate::common::assert_close;
-use pounding::engine::{LinkOutput, Side};
+use pounding::engine::{BuildingId, LinkOutput};
 
 /// Forces that push the masses together and apart again and again, as in `physics/yielding_times.rs`.
 #[test]
@@ -26,8 +26,8 @@ fn a_hundred_thousand_slips() {
             let time = 0.15 * f64::from(k + 1);
             slips += exact.switches(time).iter().filter(|now| now.sense != 0.0).count();
             exact = exact.at(time);
-            run.state.set_floor_force(Side::Left, 0, load);
-            run.state.set_floor_force(Side::Right, 0, -load);
+            run.state.set_floor_force(BuildingId::LEFT, 0, load);
+            run.state.set_floor_force(BuildingId::RIGHT, 0, -load);
             run.to(time);
             k += 1;
             let residual = run.energy().residual;

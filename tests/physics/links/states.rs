@@ -2,7 +2,7 @@
 
 use super::devices::{between, linked, of_link, shaken, slipping, to_wall};
 use crate::common::{Run, record};
-use pounding::engine::{LinkOutput, Output, Point, SavedState, Side};
+use pounding::engine::{BuildingId, LinkOutput, Output, Point, SavedState};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -20,7 +20,7 @@ fn scene(law: &str) -> Scene {
          [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.008\n{law}\n"
     );
     let damper = slipping(between(2, 2, 3e7, 0.0), 4e4, 0.0);
-    linked(&text, &[damper, slipping(to_wall(Side::Left, 1, 1e7, 1e5), 3e4, 0.1)])
+    linked(&text, &[damper, slipping(to_wall(BuildingId::LEFT, 1, 1e7, 1e5), 3e4, 0.1)])
 }
 
 const LAWS: [&str; 2] =
@@ -111,7 +111,7 @@ fn a_point_reads_one_model_after_another() {
     let buildings = "[left]\nmass = [4e4]\nstiffness = [3e7]\ndamping = { ratio = 0.03 }\n\
                      [right]\nmass = [3e4]\nstiffness = [5e7]\ndamping = { ratio = 0.05 }\n";
     let scenes =
-        [vec![], vec![between(1, 1, 1e6, 1e5)], vec![between(1, 1, 1e6, 1e5), to_wall(Side::Left, 1, 0.0, 2e5)]];
+        [vec![], vec![between(1, 1, 1e6, 1e5)], vec![between(1, 1, 1e6, 1e5), to_wall(BuildingId::LEFT, 1, 0.0, 2e5)]];
     let mut runs = scenes.map(|links| shaken(linked(buildings, &links), &shaking()));
     let mut point = Point::default();
     for (links, run) in runs.iter_mut().enumerate() {

@@ -3,7 +3,7 @@
 use super::Piecewise;
 use super::system::Places;
 use crate::common::Run;
-use pounding::engine::{FoundationOutput, LinkOutput, Output, Side};
+use pounding::engine::{BuildingId, FoundationOutput, LinkOutput, Output};
 use pounding::record::Record;
 use pounding::scene::{Place, Scene};
 
@@ -22,7 +22,7 @@ struct Beside<'a> {
 /// largest displacement and velocity of all floors so far.
 pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], tolerance: f64) -> Piecewise<'r> {
     let (mut run, mut other) = (Run::new(scene, Some(record)), Piecewise::new(scene, record));
-    let floors: Vec<_> = [Side::Left, Side::Right]
+    let floors: Vec<_> = [BuildingId::LEFT, BuildingId::RIGHT]
         .into_iter()
         .flat_map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)))
         .collect();
@@ -67,7 +67,7 @@ impl Beside<'_> {
         for (place, [displacement, velocity], length) in
             [of_sway, (Place::Rotation, [F::Rotation, F::RotationRate], 0.1)]
         {
-            for side in [Side::Left, Side::Right] {
+            for side in [BuildingId::LEFT, BuildingId::RIGHT] {
                 let Some(i) = Places(self.scene).find(side, place) else { continue };
                 let near = |of, expected: f64, size: f64| {
                     let got = self.run.read(Output::Foundation(side, of));
@@ -80,7 +80,7 @@ impl Beside<'_> {
     }
 
     /// A floor, and the storey below it.
-    fn assert_floor(&self, storey: usize, (side, floor): (Side, usize)) {
+    fn assert_floor(&self, storey: usize, (side, floor): (BuildingId, usize)) {
         let Beside { run, other, most, fastest, .. } = *self;
         let i = Places(self.scene).find(side, Place::Floor(floor)).unwrap();
         let near = |got: f64, expected: f64, size: f64, name: &str| {

@@ -3,11 +3,11 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use pounding::contact::LawKind;
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::{Building, ContactPair, Damping, Foundation, Place, Scene, Slip};
 use std::f64::consts::PI;
 
-const SIDES: [Side; 2] = [Side::Left, Side::Right];
+const SIDES: [BuildingId; 2] = [BuildingId::LEFT, BuildingId::RIGHT];
 
 /// All that does not change in a run.
 pub struct System {
@@ -44,17 +44,17 @@ pub struct Places<'s>(pub &'s Scene);
 
 impl Places<'_> {
     /// That of one displacement; `None` where the building has no such one.
-    pub fn find(self, side: Side, place: Place) -> Option<usize> {
-        let first = if side == Side::Left { 0 } else { rows(&self.0.left) };
+    pub fn find(self, side: BuildingId, place: Place) -> Option<usize> {
+        let first = if side == BuildingId::LEFT { 0 } else { rows(&self.0.buildings[0]) };
         number(self.0.building(side), place).map(|of| first + of)
     }
 
-    fn at(self, side: Side, place: Place) -> usize {
+    fn at(self, side: BuildingId, place: Place) -> usize {
         self.find(side, place).unwrap()
     }
 
     pub fn count(self) -> usize {
-        rows(&self.0.left) + rows(&self.0.right)
+        rows(&self.0.buildings[0]) + rows(&self.0.buildings[1])
     }
 
     /// A vector of numbers of all floors; foundations have 0.
@@ -116,7 +116,7 @@ impl System {
         (0.05 / trace.sqrt()).min(1.0 / damped)
     }
 
-    fn add_frame(&mut self, places: Places, side: Side) {
+    fn add_frame(&mut self, places: Places, side: BuildingId) {
         let (building, own) = (places.0.building(side), self.storeys.len());
         for i in 0..building.mass.len() {
             let mut row = DVector::zeros(self.mass.len());
@@ -139,7 +139,7 @@ impl System {
     fn add_links(&mut self, places: Places) {
         for link in &places.0.links {
             let mut row = DVector::zeros(self.mass.len());
-            link.ends().for_each(|end| row[places.at(end.side, end.place)] = end.weight);
+            link.ends().for_each(|end| row[places.at(end.building, end.place)] = end.weight);
             let Slip { force, ratio } = link.slip.unwrap_or(Slip { force: f64::INFINITY, ratio: 1.0 });
             self.damping += link.dashpot * &row * row.transpose();
             let (stiffness, limit) = (link.stiffness, force / link.stiffness);
@@ -148,7 +148,7 @@ impl System {
     }
 
     /// Gravity on leans, which the rotation of a foundation has no part in.
-    fn add_gravity(&mut self, places: Places, side: Side) {
+    fn add_gravity(&mut self, places: Places, side: BuildingId) {
         for (i, g) in places.0.building(side).gravity_stiffness().into_iter().enumerate().filter(|(_, g)| *g != 0.0) {
             let floor = places.at(side, Place::Floor(i));
             let mut row = self.storeys.iter().find(|storey| storey.row[floor] == 1.0).unwrap().row.clone();
@@ -158,7 +158,7 @@ impl System {
     }
 
     /// The springs and dashpots of the soil.
-    fn add_soil(&mut self, places: Places, side: Side) {
+    fn add_soil(&mut self, places: Places, side: BuildingId) {
         let Some(Foundation { sway, rocking, .. }) = &places.0.building(side).foundation else { return };
         for (of, soil) in [(Place::Foundation, sway), (Place::Rotation, rocking)] {
             let Some(soil) = soil else { continue };
@@ -179,7 +179,7 @@ impl Storey {
 impl Pair {
     fn of(pair: &ContactPair, places: Places, mass: &DVector<f64>) -> Pair {
         let mut row = DVector::zeros(mass.len());
-        pair.row(places.0).for_each(|share| row[places.at(share.side, share.place)] += share.weight);
+        pair.row(places.0).for_each(|share| row[places.at(share.building, share.place)] += share.weight);
         let reduced = 1.0 / row.zip_map(mass, |w: f64, m| w * w / m).sum();
         let (k, e) = (pair.law.stiffness, pair.law.restitution);
         let (stiffness, damping, restitution) = match pair.law.kind {

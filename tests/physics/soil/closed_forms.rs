@@ -2,7 +2,7 @@
 
 use super::{foundation, frame, run_for};
 use crate::common::{Run, assert_close, press, scene};
-use pounding::engine::{EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates, Side};
+use pounding::engine::{BuildingId, EnergyOutput, FoundationOutput as F, Model, Output, PeakOf, PointRates};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ fn frequencies_of_one_storey_that_sways() {
     let (m, k, _, m0, usual) = ONE;
     for kh in [usual, 1e12 * k] {
         let mut scene = one_storey(m0, 0.0, None);
-        scene.left.foundation.as_mut().unwrap().sway.as_mut().unwrap().stiffness = kh;
+        scene.buildings[0].foundation.as_mut().unwrap().sway.as_mut().unwrap().stiffness = kh;
         assert!(scene.check().is_ok());
         let model = Model::new(&scene, None).unwrap();
         let a = k / m + (k + kh) / m0;
@@ -35,7 +35,7 @@ fn frequencies_of_one_storey_that_sways() {
             assert!((got / exact - 1.0).abs() < 1e-15, "{got} Hz not {exact}");
         }
         // The building alone is that on a fixed base.
-        assert!((model.natural_frequencies(Side::Left)[0] / ((k / m).sqrt() / (2.0 * PI)) - 1.0).abs() < 1e-15);
+        assert!((model.natural_frequencies(BuildingId::LEFT)[0] / ((k / m).sqrt() / (2.0 * PI)) - 1.0).abs() < 1e-15);
     }
 }
 
@@ -46,7 +46,7 @@ fn light_foundations_lengthen_the_period_as_springs_in_a_row_do() {
     let exact = (1.0 + k / kh + k * h * h / kr).sqrt();
     for share in [1e-6, 1e-9] {
         let scene = one_storey(ONE.0 * share, ONE.0 * 36.0 * share, Some(kr));
-        let ratio = pounding::structure::period_ratio(&scene.left);
+        let ratio = pounding::structure::period_ratio(&scene.buildings[0]);
         // A limit: the difference is that of the foundation's mass.
         assert!((ratio / exact - 1.0).abs() < 0.5 * share + 1e-14, "{ratio} not {exact}");
         assert!(share < 1e-7 || (ratio / exact - 1.0).abs() > 0.01 * share);
@@ -58,23 +58,23 @@ fn a_force_that_stays_bends_storey_and_soil() {
     let (_, k, h, _, kh) = ONE;
     let kr = 2.4e9;
     let mut scene = one_storey(6e4, 9e5, Some(kr));
-    let soil = scene.left.foundation.as_mut().unwrap();
+    let soil = scene.buildings[0].foundation.as_mut().unwrap();
     soil.sway.as_mut().unwrap().dashpot = 3e6;
     soil.rocking.as_mut().unwrap().dashpot = 6e7;
     scene.floor_forces = true;
     let mut run = Run::new(&scene, None);
     let force = 1e5;
-    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(BuildingId::LEFT, 0, force);
     run.to(200.0);
     let exact = force * (1.0 / k + 1.0 / kh + h * h / kr);
     let near = |got: f64, exact: f64| assert!((got / exact - 1.0).abs() < 1e-12, "{got:e} not {exact:e}");
-    near(run.displacement(Side::Left, 0), exact);
+    near(run.displacement(BuildingId::LEFT, 0), exact);
     for (of, exact) in
         [(F::Displacement, force / kh), (F::Rotation, force * h / kr), (F::Force, force), (F::Moment, force * h)]
     {
-        near(run.read(Output::Foundation(Side::Left, of)), exact);
+        near(run.read(Output::Foundation(BuildingId::LEFT, of)), exact);
     }
-    near(run.read(Output::BaseShear(Side::Left)), force);
+    near(run.read(Output::BaseShear(BuildingId::LEFT)), force);
 }
 
 #[test]
@@ -82,9 +82,9 @@ fn soil_as_stiff_as_rock_is_a_fixed_base() {
     let fixed = run_for(&frame("damping = { ratio = 0.0 }\n", ""), 5.0);
     let rock = foundation("sway = { stiffness = 9e16 }\ninertia = 3e5\nrocking = { stiffness = 1.2e18 }\n");
     let stiff = run_for(&frame("damping = { ratio = 0.0 }\n", &rock), 5.0);
-    let peak = fixed.peak(PeakOf::Displacement(Side::Left, 1));
+    let peak = fixed.peak(PeakOf::Displacement(BuildingId::LEFT, 1));
     for floor in 0..2 {
-        let [fixed, stiff] = [&fixed, &stiff].map(|run| run.displacement(Side::Left, floor));
+        let [fixed, stiff] = [&fixed, &stiff].map(|run| run.displacement(BuildingId::LEFT, floor));
         assert!((fixed - stiff).abs() < 1e-8 * peak, "{fixed:e} and {stiff:e}");
     }
 }
@@ -100,10 +100,10 @@ fn storeys_that_have_yielded_rest_where_soil_and_gravity_hold_them() {
         let keys = if gravity { YIELDING.to_owned() + "p_delta = true\n" } else { YIELDING.to_owned() };
         let scene = frame(&keys, &foundation(SOIL));
         let run = run_for(&scene, 200.0);
-        let (heights, g) = ([4.0, 3.0], scene.left.gravity_stiffness());
+        let (heights, g) = ([4.0, 3.0], scene.buildings[0].gravity_stiffness());
         let of = |i: usize| {
-            let k = scene.left.stiffness.of_storey(i).unwrap();
-            let (theta, p) = (g[i] / k, run.storey(Side::Left, i).plastic);
+            let k = scene.buildings[0].stiffness.of_storey(i).unwrap();
+            let (theta, p) = (g[i] / k, run.storey(BuildingId::LEFT, i).plastic);
             (theta, g[i] * heights[i], (1.0 - [0.05, 0.0][i]) / (1.0 - theta) * p)
         };
         let sums =
@@ -112,17 +112,17 @@ fn storeys_that_have_yielded_rest_where_soil_and_gravity_hold_them() {
             });
         let rotation = sums.1 / (1.2e9 - sums.0);
         assert!(gravity == (rotation != 0.0));
-        let at = |of| run.read(Output::Foundation(Side::Left, of));
+        let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
         let size = of(0).2.abs().max(of(1).2.abs());
         assert!(size > 1e-3, "{size} m");
         assert!((at(F::Rotation) - rotation).abs() < 1e-12 * size && at(F::Displacement).abs() < 1e-12 * size);
         for (i, height) in heights.into_iter().enumerate() {
             let (theta, _, kept) = of(i);
             let exact = kept + theta / (1.0 - theta) * height * rotation;
-            let residual = run.storey(Side::Left, i).residual;
+            let residual = run.storey(BuildingId::LEFT, i).residual;
             assert!((residual - exact).abs() < 1e-13 * size, "{residual:e} not {exact:e}");
-            let below = if i == 0 { at(F::Displacement) } else { run.displacement(Side::Left, i - 1) };
-            let drift = run.displacement(Side::Left, i) - below - height * at(F::Rotation);
+            let below = if i == 0 { at(F::Displacement) } else { run.displacement(BuildingId::LEFT, i - 1) };
+            let drift = run.displacement(BuildingId::LEFT, i) - below - height * at(F::Rotation);
             assert!((drift - exact).abs() < 1e-12 * size, "{drift:e} not {exact:e}");
         }
     }
@@ -130,10 +130,10 @@ fn storeys_that_have_yielded_rest_where_soil_and_gravity_hold_them() {
 
 /// Energy of the weights, -1/2 sum of g lean^2, and its rate.
 fn rates_of_gravity(scene: &Scene, run: &Run) -> [f64; 2] {
-    let at = |of| run.read(Output::Foundation(Side::Left, of));
-    let u = [at(F::Displacement), run.displacement(Side::Left, 0), run.displacement(Side::Left, 1)];
-    let v = [at(F::Velocity), run.velocity(Side::Left, 0), run.velocity(Side::Left, 1)];
-    scene.left.gravity_stiffness().iter().enumerate().fold([0.0; 2], |[energy, rate], (i, g)| {
+    let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
+    let u = [at(F::Displacement), run.displacement(BuildingId::LEFT, 0), run.displacement(BuildingId::LEFT, 1)];
+    let v = [at(F::Velocity), run.velocity(BuildingId::LEFT, 0), run.velocity(BuildingId::LEFT, 1)];
+    scene.buildings[0].gravity_stiffness().iter().enumerate().fold([0.0; 2], |[energy, rate], (i, g)| {
         let (lean, speed) = (u[i + 1] - u[i], v[i + 1] - v[i]);
         [energy - 0.5 * g * lean * lean, rate - g * lean * speed]
     })
@@ -149,17 +149,17 @@ fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
     for k in 1..400 {
         run.to(0.0123 * f64::from(k));
         run.now().differentiate(&mut rates);
-        let at = |of| run.read(Output::Foundation(Side::Left, of));
-        let rate = |of| run.now().rates(&rates, Output::Foundation(Side::Left, of))[0];
-        let (spin, below) = (at(F::RotationRate), [at(F::Velocity), run.velocity(Side::Left, 0)]);
+        let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
+        let rate = |of| run.now().rates(&rates, Output::Foundation(BuildingId::LEFT, of))[0];
+        let (spin, below) = (at(F::RotationRate), [at(F::Velocity), run.velocity(BuildingId::LEFT, 0)]);
         let shear = |i: usize| {
-            let drift_rate = run.velocity(Side::Left, i) - below[i] - [4.0, 3.0][i] * spin;
-            run.storey(Side::Left, i).shear + [2e5, 1e5][i] * drift_rate
+            let drift_rate = run.velocity(BuildingId::LEFT, i) - below[i] - [4.0, 3.0][i] * spin;
+            run.storey(BuildingId::LEFT, i).shear + [2e5, 1e5][i] * drift_rate
         };
         let overturning = 4.0 * shear(0) + 3.0 * shear(1);
         let moment = at(F::Moment) + 3e5 * rate(F::RotationRate);
         let force = at(F::Force) + 3e4 * at(F::Acceleration);
-        let base = run.read(Output::BaseShear(Side::Left));
+        let base = run.read(Output::BaseShear(BuildingId::LEFT));
         let gravity = rates_of_gravity(&scene, &run);
         let of_gravity = Output::Energy(EnergyOutput::Gravity);
         let power = run.now().rates(&rates, of_gravity)[0];
@@ -170,7 +170,7 @@ fn the_soil_carries_the_overturning_moment_and_the_base_shear_at_any_time() {
         }
     }
     assert!(worst.iter().zip(largest).all(|(worst, largest)| *worst < 1e-12 * largest), "{worst:?} of {largest:?}");
-    assert!(run.storey(Side::Left, 0).plastic != 0.0);
+    assert!(run.storey(BuildingId::LEFT, 0).plastic != 0.0);
 }
 
 /// Damping of storey and soil in proportion to their stiffness, so that the first mode is critically damped: both of its rates
@@ -208,7 +208,8 @@ fn critical_damping_exactly() {
             };
             (0..2).for_each(|i| exact[i] += shape[i] * start * course);
         }
-        let got = [run.read(Output::Foundation(Side::Left, F::Displacement)), run.displacement(Side::Left, 0)];
+        let got =
+            [run.read(Output::Foundation(BuildingId::LEFT, F::Displacement)), run.displacement(BuildingId::LEFT, 0)];
         for (got, exact) in got.into_iter().zip(exact) {
             assert!((got - exact).abs() < 1e-14, "{got:e} m instead of {exact:e} at {t} s");
         }
@@ -241,9 +242,10 @@ fn floors_that_are_held_together_while_both_rock() {
     for k in 1..200 {
         run.to(0.02 * f64::from(k));
         if run.contact(0).active {
-            let apart = run.displacement(Side::Left, 0) - run.displacement(Side::Right, 0) - 0.01;
+            let apart = run.displacement(BuildingId::LEFT, 0) - run.displacement(BuildingId::RIGHT, 0) - 0.01;
             assert!(apart.abs() < 1e-15, "{apart:e} m");
-            let rates = [Side::Left, Side::Right].map(|side| run.read(Output::Foundation(side, F::RotationRate)));
+            let rates =
+                [BuildingId::LEFT, BuildingId::RIGHT].map(|side| run.read(Output::Foundation(side, F::RotationRate)));
             rotations.iter_mut().zip(rates).for_each(|(most, rate)| *most = most.max(rate.abs()));
         }
     }

@@ -4,7 +4,7 @@
 use super::shaking;
 use crate::common::{Run, scene};
 use crate::piecewise::{Piecewise, assert_same_motion};
-use pounding::engine::{FoundationOutput as F, Output, Side};
+use pounding::engine::{BuildingId, FoundationOutput as F, Output};
 use pounding::scene::Scene;
 
 const LEFT: &str = "mass = [4e4, 3e4]\nheight = [4.0, 3.0]\nstiffness = [3e7, 2e7]\n\
@@ -96,11 +96,12 @@ fn columns_lean_with_the_foundation_where_they_are_hit() {
         let mut run = Run::new(&scene, Some(&shaking()));
         for k in 1..=200 {
             run.to(0.02 * f64::from(k));
-            let of_soil = |of| run.read(Output::Foundation(Side::Left, of));
-            let lower = if storey == 1 { of_soil(F::Displacement) } else { run.displacement(Side::Left, storey - 2) };
-            let upper = run.displacement(Side::Left, storey - 1);
+            let of_soil = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
+            let lower =
+                if storey == 1 { of_soil(F::Displacement) } else { run.displacement(BuildingId::LEFT, storey - 2) };
+            let upper = run.displacement(BuildingId::LEFT, storey - 1);
             let columns = (1.0 - n) * lower + n * upper + (s - n) * height * of_soil(F::Rotation);
-            let exact = columns - run.displacement(Side::Right, 0) - gap;
+            let exact = columns - run.displacement(BuildingId::RIGHT, 0) - gap;
             assert!(
                 (run.contact(0).penetration - exact).abs() < 1e-15,
                 "{:e} not {exact:e}",

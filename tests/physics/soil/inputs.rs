@@ -3,7 +3,7 @@
 
 use super::closed_forms::{ONE, one_storey};
 use crate::common::{Run, press, scene};
-use pounding::engine::{ContactOutput, FoundationOutput as F, Input, Output, Response, Side};
+use pounding::engine::{BuildingId, ContactOutput, FoundationOutput as F, Input, Output, Response};
 use pounding::scene::Scene;
 
 /// Adds so much to an input and compares the change of each output with what is expected, and with what the derivatives say.
@@ -24,8 +24,8 @@ fn assert_answers(run: &mut Run, (input, change): (Input, f64), expected: &[(Out
     run.model.observe(&run.state, &mut run.point);
 }
 
-const FOUNDATION: Output = Output::Foundation(Side::Left, F::Acceleration);
-const FLOORS: [Output; 2] = [Output::Acceleration(Side::Left, 0), Output::Acceleration(Side::Right, 0)];
+const FOUNDATION: Output = Output::Foundation(BuildingId::LEFT, F::Acceleration);
+const FLOORS: [Output; 2] = [Output::Acceleration(BuildingId::LEFT, 0), Output::Acceleration(BuildingId::RIGHT, 0)];
 const REACTION: Output = Output::Contact(0, ContactOutput::Force);
 
 /// Soil and storey do not know of the ground's acceleration, nor of a force on a floor, yet.
@@ -38,7 +38,7 @@ fn a_foundation_that_is_free_answers_to_no_input() {
     run.to(0.1);
     assert!(run.read(FOUNDATION).abs() > 1e-3);
     assert_answers(&mut run, (Input::GroundAcceleration, 1e3), &[(FOUNDATION, 0.0), (FLOORS[0], 0.0)]);
-    let force = Input::Force(Side::Left, 0);
+    let force = Input::Force(BuildingId::LEFT, 0);
     assert_answers(&mut run, (force, 1e3), &[(FOUNDATION, 0.0), (FLOORS[0], 1e3 / ONE.0)]);
 }
 
@@ -94,7 +94,7 @@ fn a_force_on_a_floor_that_presses_columns_reaches_their_foundation() {
         (FLOORS[0], -n * reaction * of_floor),
         (FLOORS[1], (1e3 + reaction) * of_floor),
     ];
-    assert_answers(&mut run, (Input::Force(Side::Right, 0), 1e3), &answers);
+    assert_answers(&mut run, (Input::Force(BuildingId::RIGHT, 0), 1e3), &answers);
     let answers = [(REACTION, 0.0), (FOUNDATION, 0.0), (FLOORS[0], 0.0), (FLOORS[1], 0.0)];
     assert_answers(&mut run, (Input::GroundAcceleration, 1.0), &answers);
 }
@@ -103,7 +103,7 @@ fn a_force_on_a_floor_that_presses_columns_reaches_their_foundation() {
 #[test]
 fn columns_that_are_held_to_the_ground_have_their_foundation_follow_it() {
     let mut run = Run::new(&columns(SWAY, "right_floor = 1\nwall = \"right\"\n"), None);
-    run.state.set_floor_force(Side::Left, 0, 8e5);
+    run.state.set_floor_force(BuildingId::LEFT, 0, 8e5);
     run.to(0.05);
     assert!((0..2).all(|p| run.contact(p).active && run.contact(p).force > 1e5), "{:?}", run.contacts());
     let [(n, of_floor), (below, of_foundation), _] = shares();

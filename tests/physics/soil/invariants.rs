@@ -4,7 +4,7 @@
 use super::{foundation, frame, shaking};
 use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
-use pounding::engine::{EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates, Side};
+use pounding::engine::{BuildingId, EnergyOutput, FoundationOutput as F, Output, PeakOf, PointRates};
 use pounding::scene::Scene;
 
 const LEFT: &str = "height = [4.0, 3.0]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = { dashpots = [2e5, 1e5] }\n\
@@ -38,7 +38,7 @@ const RIGID: &str = "law = \"stereomechanical\"\nrestitution = 0.5";
 
 /// Outputs of the building on soil and of the taller one that must agree.
 fn pairs() -> Vec<(Output, Output)> {
-    let (left, right) = (Side::Left, Side::Right);
+    let (left, right) = (BuildingId::LEFT, BuildingId::RIGHT);
     let mut pairs = vec![
         (Output::Foundation(left, F::Displacement), Output::Displacement(left, 0)),
         (Output::Foundation(left, F::Velocity), Output::Velocity(left, 0)),
@@ -51,7 +51,7 @@ fn pairs() -> Vec<(Output, Output)> {
         (Output::Peak(PeakOf::LinkForce(0)), Output::Peak(PeakOf::LinkForce(0))),
     ];
     for i in 0..2 {
-        let peaks: [fn(Side, usize) -> PeakOf; 3] = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
+        let peaks: [fn(BuildingId, usize) -> PeakOf; 3] = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
         pairs.extend(peaks.map(|of| (Output::Peak(of(left, i)), Output::Peak(of(left, i + 1)))));
         pairs.push((Output::Acceleration(left, i), Output::Acceleration(left, i + 1)));
         pairs.push((Output::Velocity(left, i), Output::Velocity(left, i + 1)));
@@ -90,7 +90,7 @@ fn a_foundation_that_sways_is_one_more_storey() {
             assert!(*rates_apart <= 10.0 * tolerance * fastest, "{law}: rates of {one:?}: {:e}", rates_apart / fastest);
         }
         assert!(runs[0].episodes.len() > 2 && runs[0].episodes.len() == runs[1].episodes.len());
-        assert!(runs[0].storey(Side::Left, 0).cumulative > 0.0);
+        assert!(runs[0].storey(BuildingId::LEFT, 0).cumulative > 0.0);
         assert!(runs[0].energy().residual.abs() < 1e-12, "{:?}", runs[0].energy());
     }
 }
@@ -109,14 +109,14 @@ fn peaks_of_foundations_and_drifts_are_those_of_all_that_is_read() {
     let (h, mut largest) = ([4.0, 3.0], [0.0_f64; 6]);
     for k in 1..=30_000 {
         run.to(1e-4 * f64::from(k));
-        let at = |of| run.read(Output::Foundation(Side::Left, of));
+        let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
         let [u0, phi] = [F::Displacement, F::Rotation].map(at);
-        let u = [0, 1].map(|i| run.displacement(Side::Left, i));
+        let u = [0, 1].map(|i| run.displacement(BuildingId::LEFT, i));
         let now = [u0, phi, at(F::Force), at(F::Moment), u[0] - u0 - h[0] * phi, u[1] - u[0] - h[1] * phi];
         largest.iter_mut().zip(now).for_each(|(largest, now)| *largest = largest.max(now.abs()));
     }
-    let at = |of| run.read(Output::Foundation(Side::Left, of));
-    let drifts = [0, 1].map(|i| run.peak(PeakOf::Drift(Side::Left, i)));
+    let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
+    let drifts = [0, 1].map(|i| run.peak(PeakOf::Drift(BuildingId::LEFT, i)));
     let peaks =
         [at(F::PeakDisplacement), at(F::PeakRotation), at(F::PeakForce), at(F::PeakMoment), drifts[0], drifts[1]];
     for (i, (peak, read)) in peaks.into_iter().zip(largest).enumerate() {
@@ -142,7 +142,7 @@ fn the_soil_dissipates_all_that_the_building_does_not() {
         run.now().differentiate(&mut rates);
         let [soil, viscous] =
             [EnergyOutput::Soil, EnergyOutput::Viscous].map(|of| run.now().rates(&rates, Output::Energy(of)));
-        let at = |of| run.read(Output::Foundation(Side::Left, of));
+        let at = |of| run.read(Output::Foundation(BuildingId::LEFT, of));
         let power = 1.5e6 * at(F::Velocity).powi(2) + 4e6 * at(F::RotationRate).powi(2);
         assert!(
             (soil[0] - power).abs() <= 1e-12 * power && (viscous[0] - power).abs() <= 1e-11 * power,
@@ -177,8 +177,8 @@ fn a_dashpot_that_keeps_the_foundation_from_rocking() {
     let mut held = run("");
     let mut rocking = run("inertia = 3e5\nrocking = { stiffness = 1.2e9, dashpot = 3e13 }\n");
     let peaks = |run: &Run| {
-        let of_floors =
-            [0, 1].map(|i| [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration].map(|of| of(Side::Left, i)));
+        let of_floors = [0, 1]
+            .map(|i| [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration].map(|of| of(BuildingId::LEFT, i)));
         of_floors.concat().into_iter().map(|of| run.peak(of)).collect::<Vec<_>>()
     };
     for k in 1..=10 {

@@ -2,7 +2,7 @@
 //! dashpots, and 14 impacts. Two programs that share neither unknowns nor mass matrix have found the same digits.
 
 use crate::common::Run;
-use pounding::engine::{FoundationOutput as F, Output, Side};
+use pounding::engine::{BuildingId, FoundationOutput as F, Output};
 use pounding::record::Record;
 use pounding::scene::{self, Scene};
 use std::path::Path;
@@ -24,7 +24,7 @@ fn f1() -> (Scene, Record) {
 /// The output of a column of the reference.
 fn output(name: &str) -> Output {
     let (side, of) = name.split_once('.').unwrap();
-    let side = if side == "left" { Side::Left } else { Side::Right };
+    let side = if side == "left" { BuildingId::LEFT } else { BuildingId::RIGHT };
     let floor = || of[of.find('[').unwrap() + 1..of.len() - 1].parse::<usize>().unwrap() - 1;
     match of {
         "foundation.displacement" => Output::Foundation(side, F::Displacement),

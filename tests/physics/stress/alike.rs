@@ -2,7 +2,7 @@
 //! rounding must neither bring them together and apart for ever nor end a contact that has begun.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 
 /// A frame of equal storeys without damping.
 fn frame(storeys: usize, mass: f64, stiffness: f64) -> String {
@@ -77,8 +77,10 @@ fn frames_that_are_nearly_alike_do_not_disturb_each_other() {
     };
     let (touching, apart) = (run(&contact(1, "law = \"linear\"\nstiffness = 1.2e12")), run(""));
     assert!(touching.point.impacts < 1000, "{} impacts", touching.point.impacts);
-    let size = apart.displacement(Side::Left, 2).abs();
-    for (side, floor) in [Side::Left, Side::Right].into_iter().flat_map(|side| [0, 1, 2].map(|floor| (side, floor))) {
+    let size = apart.displacement(BuildingId::LEFT, 2).abs();
+    for (side, floor) in
+        [BuildingId::LEFT, BuildingId::RIGHT].into_iter().flat_map(|side| [0, 1, 2].map(|floor| (side, floor)))
+    {
         let error = touching.displacement(side, floor) - apart.displacement(side, floor);
         assert!(error.abs() < 1e-11 * size, "{side:?} {floor}: {error:e} of {size:e}");
     }

@@ -3,7 +3,7 @@
 use crate::common::problems::laws::Laws;
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 
 /// Laws that lose nothing.
@@ -38,7 +38,7 @@ fn thousands_of_elastic_impacts_keep_the_energy() {
         let impacts = run.point.impacts as f64;
         assert!(impacts > 1500.0, "{law}: {impacts} impacts");
         assert!(worst < 1e-14 * impacts, "{law}: {worst:e} after {impacts} impacts");
-        assert!(run.velocity(Side::Left, 0).abs() <= 1.0 + 1e-9);
+        assert!(run.velocity(BuildingId::LEFT, 0).abs() <= 1.0 + 1e-9);
         let lost: f64 = run.episodes.iter().map(|episode| episode.dissipated_energy.abs()).fold(0.0, f64::max);
         assert!(lost < 1e-11, "{law}: {lost:e} J lost in one impact");
     }

@@ -1,7 +1,7 @@
 //! An hour of shaking at 100 Hz: 360 000 samples, some thousand contacts.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 
 /// Laws with and without a loss, with and without a power.
 pub const LAWS: [&str; 4] = [
@@ -38,7 +38,7 @@ pub fn run(law: &str, seconds: f64) -> (u64, f64, f64) {
         }
         (run, worst)
     });
-    let difference = [Side::Left, Side::Right]
+    let difference = [BuildingId::LEFT, BuildingId::RIGHT]
         .into_iter()
         .flat_map(|side| {
             [0, 1].map(|floor| (minutes.0.displacement(side, floor) - instants.0.displacement(side, floor)).abs())

@@ -11,7 +11,7 @@ use crate::invariants::changes;
 use crate::invariants::compare::Pair;
 use crate::invariants::scenes::Row;
 use crate::invariants::ways;
-use pounding::engine::{Output, Side};
+use pounding::engine::{BuildingId, Output};
 use pounding::scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -35,7 +35,7 @@ impl Measured {
     fn new(case: &Case) -> Option<Measured> {
         let case = told(case);
         let mut nudged = case.clone();
-        let masses = nudged.scene.left.mass.iter_mut().chain(&mut nudged.scene.right.mass);
+        let masses = nudged.scene.buildings.iter_mut().flat_map(|building| &mut building.mass);
         masses.enumerate().for_each(|(i, mass)| *mass *= if i % 2 == 0 { 1.0 + NUDGE } else { 1.0 - NUDGE });
         let (plain, other) = (case.history(), nudged.history());
         let pair = Pair { case: &case, plain: &plain, changed: &nudged, other: &other };
@@ -98,7 +98,7 @@ proptest! {
             for (contact, pair) in run.contacts().iter().zip(&case.scene.contacts) {
                 let may_pull = pair.law.kind.info().name == "kelvin_voigt";
                 // A reaction that is rounding, of floors that hardly touch, has an impulse that is rounding.
-                let pushed = contact.impulse >= -1e-15 * case.scene.left.mass[0];
+                let pushed = contact.impulse >= -1e-15 * case.scene.buildings[0].mass[0];
                 prop_assert!(may_pull || contact.force >= 0.0 && pushed, "{contact:?}");
             }
             let residual = run.energy().residual;
@@ -153,7 +153,7 @@ proptest! {
         margin in prop_oneof![Just(1e3), 1e-6..1e-2_f64],
         first in any::<bool>(),
     ) {
-        let (left, right) = (floors.0.min(case.scene.left.mass.len()), floors.1.min(case.scene.right.mass.len()));
+        let (left, right) = (floors.0.min(case.scene.buildings[0].mass.len()), floors.1.min(case.scene.buildings[1].mass.len()));
         let is_there = case.scene.contacts.iter().any(|pair| pair.floors() == Some([left, right]));
         prop_assume!(!is_there);
         // How near these floors come to each other, sampled.
@@ -161,7 +161,7 @@ proptest! {
         let mut nearest = f64::NEG_INFINITY;
         for k in 1..=2000 {
             run.to(case.duration() * f64::from(k) / 2000.0);
-            nearest = nearest.max(run.displacement(Side::Left, left - 1) - run.displacement(Side::Right, right - 1));
+            nearest = nearest.max(run.displacement(BuildingId::LEFT, left - 1) - run.displacement(BuildingId::RIGHT, right - 1));
         }
         let case = told(&case);
         let more = changes::with_contact(&case, (left, right), nearest.max(0.0) + margin, &law, first);

@@ -1,7 +1,7 @@
 //! Limits: parameters so large or small that the answer is that of a simpler problem, with a bound on the difference.
 
 use crate::common::{Run, assert_close, free_impact, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use std::f64::consts::PI;
 
 /// Velocities after an impact with restitution e (seed paper, eqs. 1 and 2), of a left mass that comes with 1 m/s.
@@ -26,7 +26,7 @@ fn a_light_floor_and_a_heavy_one_exchange_the_right_momentum() {
             let what = format!("{law}, {masses:?} kg");
             assert_eq!(run.episodes.len(), 1, "{what}");
             let [left, right] = after(masses, e);
-            let got = [run.velocity(Side::Left, 0), run.velocity(Side::Right, 0)];
+            let got = [run.velocity(BuildingId::LEFT, 0), run.velocity(BuildingId::RIGHT, 0)];
             assert!((got[0] - left).abs() < 4e-12, "{what}: left {} instead of {left}", got[0]);
             assert!((got[1] - right).abs() < 4e-12 * right, "{what}: right {} instead of {right}", got[1]);
             assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
@@ -48,7 +48,7 @@ fn a_stiff_spring_becomes_an_elastic_impulse() {
         );
         run.to(0.2);
         assert_eq!(run.point.impacts, 1, "{law}");
-        [run.displacement(Side::Left, 0), run.displacement(Side::Right, 0)]
+        [run.displacement(BuildingId::LEFT, 0), run.displacement(BuildingId::RIGHT, 0)]
     };
     let rigid = oscillators("law = \"stereomechanical\"\nrestitution = 1.0");
     for exponent in 4..=14 {
@@ -108,13 +108,13 @@ fn a_nearly_rigid_building_follows_the_ground() {
         let [first, second] = [-2e3 * a / 1e15, -3e3 * a / 1e15];
         // What each kink of the record sets ringing is a share 1/(w h) of the change of slope, damped within a sample.
         let small = 1e-4 * 3e3 * 6.0 / 1e15;
-        assert!((run.displacement(Side::Left, 0) - first).abs() < small, "knot {k}");
-        assert!((run.displacement(Side::Left, 1) - second).abs() < small, "knot {k}");
+        assert!((run.displacement(BuildingId::LEFT, 0) - first).abs() < small, "knot {k}");
+        assert!((run.displacement(BuildingId::LEFT, 1) - second).abs() < small, "knot {k}");
         // A free mass stays where it is while the ground moves: u = - double integral of a, exactly.
         let h = 1.0 / 64.0;
         let (u, v) = passed;
         passed = (u + v * h - (before / 3.0 + a / 6.0) * h * h, v - 0.5 * (before + a) * h);
-        assert!((run.displacement(Side::Right, 0) - passed.0).abs() < 1e-12 * (1.0 + passed.0.abs()), "knot {k}");
+        assert!((run.displacement(BuildingId::RIGHT, 0) - passed.0).abs() < 1e-12 * (1.0 + passed.0.abs()), "knot {k}");
     }
     assert!(run.energy().residual.abs() < 1e-11, "{:?}", run.energy());
 }

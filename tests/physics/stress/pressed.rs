@@ -2,7 +2,7 @@
 
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, press, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
@@ -149,7 +149,7 @@ fn leaning_frames_stay_where_the_springs_balance() {
             let contact = run.contact(0);
             assert!(contact.active && contact.impacts == 1, "{law}: {contact:?}");
             assert!((contact.force / force - 1.0).abs() < 1e-12, "{law}: {} N instead of {force}", contact.force);
-            let error = (run.displacement(Side::Left, 0) / u_left - 1.0).abs();
+            let error = (run.displacement(BuildingId::LEFT, 0) / u_left - 1.0).abs();
             assert!(error < 1e-12, "{law}: {error:e} after {} s", 10 * k);
         }
         let period = 2.0 * PI / (left / 25e3_f64).sqrt();

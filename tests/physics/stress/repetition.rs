@@ -4,7 +4,7 @@
 //! motion but its period.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use std::f64::consts::PI;
 
 /// Samples a second and s: times that binary numbers have exactly, for rounded ones would not come again.
@@ -16,7 +16,7 @@ fn period(run: &mut Run, start: u32) -> Vec<f64> {
     let mut motion = Vec::new();
     for k in 1..=16 * PERIOD {
         run.to(f64::from(start) + f64::from(k) / 16.0);
-        for (side, floors) in [(Side::Left, 2), (Side::Right, 3)] {
+        for (side, floors) in [(BuildingId::LEFT, 2), (BuildingId::RIGHT, 3)] {
             motion.extend((0..floors).map(|floor| run.displacement(side, floor)));
         }
     }

@@ -5,7 +5,7 @@ use crate::common::problems::frames::{Frames, zigzag};
 use crate::common::problems::laws::Laws;
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::Side;
+use pounding::engine::BuildingId;
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -43,7 +43,7 @@ fn an_entry_on_a_knot_is_one_contact() {
                 assert!((start - 2.0 * gap).abs() <= 8.0 * f64::EPSILON * start, "{what}: {start}");
                 assert_close(run.episodes[0].approach_velocity, 0.5, 1e-15, &what);
                 // Momentum: what the contact has passed on is what the right mass has.
-                assert_close(run.velocity(Side::Right, 0) * 7.5e4, run.contact(0).impulse, 1e-13, &what);
+                assert_close(run.velocity(BuildingId::RIGHT, 0) * 7.5e4, run.contact(0).impulse, 1e-13, &what);
             }
         }
     }
@@ -99,7 +99,7 @@ fn decimal_times_at_a_million_seconds_lose_no_more_than_their_digits() {
             run
         });
         assert_eq!(now.episodes.len(), later.episodes.len(), "{law}");
-        let error = (now.displacement(Side::Left, 1) - later.displacement(Side::Left, 1)).abs();
+        let error = (now.displacement(BuildingId::LEFT, 1) - later.displacement(BuildingId::LEFT, 1)).abs();
         assert!(error < 1e-8 * 0.01, "{law}: {error:e} m, and the gap is 0.01 m");
     }
 }
@@ -174,7 +174,7 @@ fn samples_added_on_the_lines_between_samples_change_nothing() {
         for (a, b) in a.episodes.iter().zip(&b.episodes) {
             assert!((a.start - b.start).abs() < 1e-11, "{law}: {a:?} {b:?}");
         }
-        let (a, b) = (a.displacement(Side::Left, 1), b.displacement(Side::Left, 1));
+        let (a, b) = (a.displacement(BuildingId::LEFT, 1), b.displacement(BuildingId::LEFT, 1));
         assert!((a - b).abs() < 1e-10 * a.abs().max(0.01), "{law}: {a} {b}");
     }
 }

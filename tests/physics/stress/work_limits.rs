@@ -3,7 +3,7 @@
 
 use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, press, scene};
-use pounding::engine::{EngineError, Side};
+use pounding::engine::{BuildingId, EngineError};
 use pounding::scene::Scene;
 use std::time::Instant;
 
@@ -104,7 +104,7 @@ fn a_run_far_beyond_its_record_is_named() {
 fn an_energy_account_that_takes_too_long_is_named() {
     let mut run = Run::new(&masses(1e6, 0.02, 0.0, 1.0, "law = \"linear\"\nstiffness = 1.0e6"), None);
     run.model.limit_work(0.1);
-    run.state.set_floor_force_rate(Side::Left, 0, 1e-2);
+    run.state.set_floor_force_rate(BuildingId::LEFT, 0, 1e-2);
     let given_up = run.model.advance(&mut run.state, 1e6, &mut |_| ()).expect_err("an account of 3e7 pieces");
     assert_names(&given_up.to_string(), &["outputs.energy", "left.stiffness"]);
 }
@@ -114,7 +114,7 @@ fn absurd_inputs_end_too() {
     for law in ["law = \"linear\"\nstiffness = 1.0e9", "law = \"hertz\"\nstiffness = 1.0e9"] {
         for acceleration in [1e10, 1e20, 1e100, 1e200, 1e300] {
             let mut scene = masses(1e6, 0.02, 0.0, 0.01, law);
-            scene.left.mass[0] = 2e3;
+            scene.buildings[0].mass[0] = 2e3;
             let mut run = Run::new(&scene, None);
             run.model.limit_work(0.1);
             let clock = Instant::now();
@@ -152,10 +152,10 @@ fn quiet_time_costs_nothing_however_long() {
     let law = "law = \"hertz\"\nstiffness = 1.0e9";
     // Damped: some contacts, then rest at what the force holds.
     let mut damped = Run::new(&masses(1e6, 0.02, 2.0, 0.01, law), None);
-    damped.state.set_floor_force(Side::Left, 0, 2e3);
+    damped.state.set_floor_force(BuildingId::LEFT, 0, 2e3);
     damped.to(1e6);
     assert!(damped.point.impacts > 3, "{}", damped.point.impacts);
-    assert_close(damped.displacement(Side::Left, 0), 2e-3, 1e-12, "held");
+    assert_close(damped.displacement(BuildingId::LEFT, 0), 2e-3, 1e-12, "held");
     let energy = damped.energy();
     assert!(energy.residual.abs() < 1e-11, "{energy:?}");
     assert!(damped.state.counters().narrow_phase_pieces < 20_000, "{:?}", damped.state.counters());
@@ -164,7 +164,7 @@ fn quiet_time_costs_nothing_however_long() {
     undamped.to(1e6);
     let w = 1e3_f64.sqrt();
     let exact = 0.3 / w * (w * 1e6).sin();
-    let error = (undamped.displacement(Side::Left, 0) - exact).abs();
+    let error = (undamped.displacement(BuildingId::LEFT, 0) - exact).abs();
     assert!(error < 0.3 / w * 4.0 * f64::EPSILON * w * 1e6, "{error:e}");
     assert_eq!(undamped.point.impacts, 0);
     assert!(undamped.state.counters().narrow_phase_pieces < 10, "{:?}", undamped.state.counters());
@@ -173,8 +173,8 @@ fn quiet_time_costs_nothing_however_long() {
     let mut growing = masses(1e6, 0.02, 0.0, 0.01, law);
     growing.energy = false;
     let mut growing = Run::new(&growing, None);
-    growing.state.set_floor_force(Side::Left, 0, 0.0);
-    growing.state.set_floor_force_rate(Side::Left, 0, 1e-2);
+    growing.state.set_floor_force(BuildingId::LEFT, 0, 0.0);
+    growing.state.set_floor_force_rate(BuildingId::LEFT, 0, 1e-2);
     growing.to(1.0001e6);
     let start =
         growing.model.open_episode(&growing.state, 0).map_or_else(|| growing.episodes[0].start, |open| open.start);

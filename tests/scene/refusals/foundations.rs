@@ -1,7 +1,7 @@
 //! Foundations: the values that they say, and what is refused of them.
 
 use crate::messages;
-use pounding::scene::{Foundation, Place, Scene, Soil};
+use pounding::scene::{BuildingId, Foundation, Place, Scene, Soil};
 
 /// A building in N and kg, which needs 3.65 MN m/rad to stand under gravity.
 fn building(keys: &str, foundation: &str) -> String {
@@ -23,17 +23,17 @@ fn all_that_a_foundation_says() {
     let scene = Scene::from_toml(&building("", BOTH)).unwrap();
     let sway = Some(Soil { stiffness: 9e7, dashpot: 1.5e6 });
     let both = Foundation { mass: 3e4, inertia: 3e5, sway, rocking: Some(Soil { stiffness: 1.2e9, dashpot: 0.0 }) };
-    assert_eq!(scene.left.foundation, Some(both.clone()));
-    assert_eq!(scene.right.foundation, None);
+    assert_eq!(scene.buildings[0].foundation, Some(both.clone()));
+    assert_eq!(scene.buildings[1].foundation, None);
     let sway_alone =
         Scene::from_toml(&building("", "mass = 3e4\nsway = { stiffness = 9e7, dashpot = 1.5e6 }")).unwrap();
-    assert_eq!(sway_alone.left.foundation, Some(Foundation { inertia: 0.0, rocking: None, ..both.clone() }));
+    assert_eq!(sway_alone.buildings[0].foundation, Some(Foundation { inertia: 0.0, rocking: None, ..both.clone() }));
     let tonnes = "name = \"Soil\"\nunits = \"kN-t\"\n[left]\nmass = [40, 30]\nheight = [4.0, 3.0]\nstiffness = [3e4, 2e4]\n\
                   damping = { ratio = 0.05 }\n[left.foundation]\nmass = 30\ninertia = 300\n\
                   sway = { stiffness = 9e4, dashpot = 1.5e3 }\nrocking = { stiffness = 1.2e6 }";
-    assert_eq!(Scene::from_toml(tonnes).unwrap().left.foundation, Some(both));
+    assert_eq!(Scene::from_toml(tonnes).unwrap().buildings[0].foundation, Some(both));
     let linked = building("", BOTH) + "\n[[link]]\nleft_floor = 0\nwall = \"right\"\ndashpot = 1e5";
-    assert_eq!(Scene::from_toml(&linked).unwrap().links[0].left, Some(Place::Foundation));
+    assert_eq!(Scene::from_toml(&linked).unwrap().links[0].left, Some((BuildingId::LEFT, Place::Foundation)));
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn in_kilonewtons() {
         .replace("[3.0, 4.0]", "[3e-3, 4e-3]")
         .replace("[2910.0, 2920.0]", "[2.91, 2.92]")
         .replace("[30.0, 40.0]", "[0.03, 0.04]");
-    let [si, kn] = [&scene, &in_kn].map(|text| Scene::from_toml(text).unwrap().left);
+    let [si, kn] = [&scene, &in_kn].map(|text| Scene::from_toml(text).unwrap().buildings.remove(0));
     assert_eq!(si.p_delta, kn.p_delta);
     assert_eq!(si.net_stiffness(), kn.net_stiffness());
     let said = |from: &str, to: &str| messages(&in_kn.replace(from, to));

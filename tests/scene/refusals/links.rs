@@ -1,7 +1,7 @@
 //! Links: their ends, springs, dashpots and slips.
 
 use crate::{SHORT, messages};
-use pounding::scene::{Link, Place, Scene, Slip};
+use pounding::scene::{BuildingId, Link, Place, Scene, Slip};
 
 /// Two buildings of one floor each with a link.
 fn linked(keys: &str) -> String {
@@ -18,8 +18,13 @@ fn expect(refusals: &[(&str, &[&str])]) {
 #[test]
 fn links_are_read() {
     let links = |keys: &str| Scene::from_toml(&linked(keys)).unwrap_or_else(|e| panic!("{e}\n{keys}")).links;
-    let link =
-        Link { left: Some(Place::Floor(0)), right: Some(Place::Floor(0)), stiffness: 5e6, dashpot: 0.0, slip: None };
+    let link = Link {
+        left: Some((BuildingId::LEFT, Place::Floor(0))),
+        right: Some((BuildingId::RIGHT, Place::Floor(0))),
+        stiffness: 5e6,
+        dashpot: 0.0,
+        slip: None,
+    };
     assert_eq!(links("left_floor = 1\nright_floor = 1\nstiffness = 5e6"), std::slice::from_ref(&link));
     let damper = Link { right: None, stiffness: 0.0, dashpot: 1.5e6, ..link.clone() };
     assert_eq!(links("left_floor = 1\nwall = \"right\"\ndashpot = 1.5e6"), [damper]);
@@ -36,7 +41,10 @@ fn links_are_read() {
     let taller = linked("left_floor = 2\nright_floor = 1\nstiffness = 5e6")
         .replacen("stiffness = [2]", &floors, 1)
         .replacen("mass = [1]", "mass = [1, 1]", 1);
-    assert_eq!(Scene::from_toml(&taller).unwrap().links, [Link { left: Some(Place::Floor(1)), ..link }]);
+    assert_eq!(
+        Scene::from_toml(&taller).unwrap().links,
+        [Link { left: Some((BuildingId::LEFT, Place::Floor(1))), ..link }]
+    );
 }
 
 #[test]
@@ -47,7 +55,13 @@ fn numbers_in_t_and_kn() {
     let slip = Some(Slip { force: 70.0, ratio: 0.1 });
     assert_eq!(
         links,
-        [Link { left: Some(Place::Floor(0)), right: Some(Place::Floor(0)), stiffness: 3.65e6, dashpot: 1.1e3, slip }]
+        [Link {
+            left: Some((BuildingId::LEFT, Place::Floor(0))),
+            right: Some((BuildingId::RIGHT, Place::Floor(0))),
+            stiffness: 3.65e6,
+            dashpot: 1.1e3,
+            slip
+        }]
     );
     let wrong = keys.replace("3.65e3", "-3.65e3").replace("1.1", "-1.1").replace("0.07", "0.0");
     assert_eq!(

@@ -1,7 +1,7 @@
 //! Heights, and what meets what: floors, columns, walls, `[facing]`, one building alone.
 
 use crate::messages;
-use pounding::scene::{ColumnShape, ContactPair, Face, Scene, Side};
+use pounding::scene::{BuildingId, ColumnShape, ContactPair, Face, Scene};
 
 const LAW: &str = "gap = 0.02\nlaw = \"linear\"\nstiffness = 1e8\n";
 
@@ -21,6 +21,12 @@ fn with_heights(rest: &str) -> String {
 
 fn contact(meeting: &str) -> String {
     format!("[[contact]]\n{meeting}\n{LAW}")
+}
+
+/// What meets, in short.
+fn briefs(text: &str) -> Vec<String> {
+    let scene = Scene::from_toml(text).unwrap_or_else(|error| panic!("{error}"));
+    scene.contacts.iter().map(|pair| pair.brief(&scene)).collect()
 }
 
 fn contacts(text: &str) -> Vec<ContactPair> {
@@ -87,10 +93,10 @@ fn positions_by_levels() {
     // Left floor 1 at 3 m stands before right storey 1 (0 to 4 m), floor 2 at 6 m before storey 2 (4 to 7 m).
     let of = |meeting: &str| contacts(&with_heights(&contact(meeting))).remove(0);
     let pair = of("left_floor = 2\nright_storey = 2");
-    assert_eq!((pair.left, pair.position()), (Face::Floor(Side::Left, 2), Some(2.0 / 3.0)));
+    assert_eq!((pair.left, pair.position()), (Face::Floor(BuildingId::LEFT, 2), Some(2.0 / 3.0)));
     let struck = of("right_floor = 1\nleft_storey = 2\ncolumn_shape = \"straight\"");
-    let (side, storey, position, shape) = (Side::Left, 2, 1.0 / 3.0, ColumnShape::Straight);
-    assert_eq!(struck.left, Face::Columns { side, storey, position, shape });
+    let (side, storey, position, shape) = (BuildingId::LEFT, 2, 1.0 / 3.0, ColumnShape::Straight);
+    assert_eq!(struck.left, Face::Columns { building: side, storey, position, shape });
     let said = |meeting: &str| messages(&with_heights(&contact(meeting)));
     let expected = "expected a storey that left floor 2 stands before, or right_position: its level, 6 m, ";
     assert_eq!(
@@ -115,10 +121,10 @@ fn positions_by_levels() {
 fn walls() {
     let at = |meeting: &str| messages(&scene("", "", &contact(meeting)));
     for (meeting, left, right) in [
-        ("left_floor = 1\nwall = \"right\"", Face::Floor(Side::Left, 1), Face::Wall),
-        ("left_floor = 2\nwall = \"left\"", Face::Wall, Face::Floor(Side::Left, 2)),
-        ("right_floor = 3\nwall = \"left\"", Face::Wall, Face::Floor(Side::Right, 3)),
-        ("right_floor = 1\nwall = \"right\"", Face::Floor(Side::Right, 1), Face::Wall),
+        ("left_floor = 1\nwall = \"right\"", Face::Floor(BuildingId::LEFT, 1), Face::Wall),
+        ("left_floor = 2\nwall = \"left\"", Face::Wall, Face::Floor(BuildingId::LEFT, 2)),
+        ("right_floor = 3\nwall = \"left\"", Face::Wall, Face::Floor(BuildingId::RIGHT, 3)),
+        ("right_floor = 1\nwall = \"right\"", Face::Floor(BuildingId::RIGHT, 1), Face::Wall),
     ] {
         let pair = contacts(&scene("", "", &contact(meeting))).remove(0);
         assert_eq!((pair.left, pair.right), (left, right), "{meeting}");
@@ -162,7 +168,7 @@ fn one_building_alone() {
     let left = "name = \"Alone\"\n[left]\nmass = [1e5]\nstiffness = [1e8]\ndamping = { dashpots = [1e5] }\n";
     let alone = |rest: &str| format!("{left}{rest}");
     let scene = Scene::from_toml(&alone(&contact("left_floor = 1\nwall = \"right\""))).unwrap();
-    assert!(scene.right.is_absent() && scene.contacts.len() == 1);
+    assert!(scene.buildings[1].is_absent() && scene.contacts.len() == 1);
     assert_eq!(
         messages(&alone(&contact("left_floor = 1\nright_floor = 1"))),
         ["right: expected the building on the right, which contacts are with (missing)"]
@@ -180,14 +186,14 @@ fn one_building_alone() {
 #[test]
 fn facing() {
     let facing = |rest: &str| format!("[facing]\n{LAW}{rest}");
-    let all: Vec<_> = contacts(&with_heights(&facing(""))).iter().map(ContactPair::brief).collect();
+    let all = briefs(&with_heights(&facing("")));
     // Levels 3 and 6 m beside 4, 7 and 10 m: right floor 2 is above the left roof.
     let expected = ["left 1 | columns of right 1 at 0.75", "columns of left 2 at 0.333333 | right 1"];
     assert_eq!(all[..2], expected);
     assert_eq!(all[2..], ["left 2 | columns of right 2 at 0.666667"]);
     // Level within the tolerance, the roof included.
     let level = |right: &str, rest: &str| scene("height = [3.0, 3.0]", right, &facing(rest));
-    let all = |text: String| contacts(&text).iter().map(ContactPair::brief).collect::<Vec<_>>();
+    let all = |text: String| briefs(&text);
     assert_eq!(all(level("height = [3.1, 2.8, 3.0]", "")), ["left 1 | right 1", "left 2 | right 2"]);
     assert_eq!(
         all(level("height = [3.1, 2.8, 3.0]", "level_tolerance = 0.0")),

@@ -10,7 +10,7 @@ mod meetings;
 mod together;
 
 use crate::{SCENE, SHORT, edited, messages};
-use pounding::scene::{Damping, Face, Scene, Side, Stiffness};
+use pounding::scene::{BuildingId, Damping, Face, Scene, Stiffness};
 
 /// Of the left building.
 const DAMPING: &str = "damping = { ratio = 0.01 }";
@@ -219,15 +219,15 @@ fn all_problems_come_at_once_in_the_order_of_the_file() {
 fn a_changed_scene_is_refused_in_the_words_of_the_file() {
     type Change = (&'static str, &'static str, fn(&mut Scene));
     let changes: [Change; 9] = [
-        ("[3.0, 4.0]", "[3.0, -4.0]", |s| s.left.mass[1] = -4.0),
-        ("[2910.0, 2920.0]", "[2910.0, nan]", |s| s.left.stiffness = Stiffness::Shear(vec![2910.0, f64::NAN])),
-        ("{ ratio = 0.01 }", "{ ratio = -0.5 }", |s| s.left.damping = Damping::Ratio(-0.5)),
+        ("[3.0, 4.0]", "[3.0, -4.0]", |s| s.buildings[0].mass[1] = -4.0),
+        ("[2910.0, 2920.0]", "[2910.0, nan]", |s| s.buildings[0].stiffness = Stiffness::Shear(vec![2910.0, f64::NAN])),
+        ("{ ratio = 0.01 }", "{ ratio = -0.5 }", |s| s.buildings[0].damping = Damping::Ratio(-0.5)),
         ("gap = 0.002", "gap = inf", |s| s.contacts[0].gap = f64::INFINITY),
         ("restitution = 0.65", "restitution = 0.0", |s| s.contacts[0].law.restitution = 0.0),
         ("stiffness = 1.0e6", "stiffness = -1.0", |s| s.contacts[0].law.stiffness = -1.0),
         ("stiffness = 2.0e6", "stiffness = 2.0e6\nexponent = 4.0", |s| s.contacts[1].law.exponent = 4.0),
         ("1e-10", "0.5", |s| s.solver.relative_tolerance = 0.5),
-        ("left_floor = 2", "left_floor = 3", |s| s.contacts[1].left = Face::Floor(Side::Left, 3)),
+        ("left_floor = 2", "left_floor = 3", |s| s.contacts[1].left = Face::Floor(BuildingId::LEFT, 3)),
     ];
     for (from, to, change) in changes {
         let mut scene = Scene::from_toml(SCENE).unwrap();

@@ -1,0 +1,57 @@
+//! Which building of a scene is meant, and which there are.
+
+use super::data::{Building, Scene};
+
+/// A building of a scene: its place from left to right. What it is called, the scene knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BuildingId(u8);
+
+impl BuildingId {
+    /// That of `[left]`.
+    pub const LEFT: BuildingId = BuildingId(0);
+    /// That of `[right]`.
+    pub const RIGHT: BuildingId = BuildingId(1);
+
+    /// That of a building by its place among all, counted from 0.
+    pub const fn new(index: usize) -> BuildingId {
+        debug_assert!(index <= u8::MAX as usize, "no scene has that many buildings");
+        BuildingId(index as u8)
+    }
+
+    /// Those of a row of so many buildings, from left to right.
+    pub fn row_of(count: usize) -> impl DoubleEndedIterator<Item = BuildingId> + Clone + use<> {
+        (0..count).map(BuildingId::new)
+    }
+
+    /// Its place among all, counted from 0.
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Scene {
+    /// Which buildings there are, from left to right.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = BuildingId> + Clone + use<> {
+        BuildingId::row_of(self.buildings.len())
+    }
+
+    /// Each building with the next one, from left to right.
+    pub fn neighbours(&self) -> impl Iterator<Item = [BuildingId; 2]> + use<> {
+        self.ids().zip(self.ids().skip(1)).map(|(left, right)| [left, right])
+    }
+
+    /// One of the buildings.
+    pub fn building(&self, id: BuildingId) -> &Building {
+        &self.buildings[id.index()]
+    }
+
+    /// The same, to be changed.
+    pub fn building_mut(&mut self, id: BuildingId) -> &mut Building {
+        &mut self.buildings[id.index()]
+    }
+
+    /// Whether a contact or a link is with a building.
+    pub(super) fn is_met(&self, id: BuildingId) -> bool {
+        self.contacts.iter().any(|pair| pair.is_with(id)) || self.links.iter().any(|link| link.is_with(id))
+    }
+}
