@@ -3,7 +3,7 @@
 use crate::message::{Answer, Refusal};
 use crate::scene::{Given, findings};
 use pounding::record::{Column, RecordOptions, STANDARD_GRAVITY};
-use pounding::scene::{Building, BuildingId, ContactPair, Scaling, Scene, Stiffness};
+use pounding::scene::{Building, ContactPair, Scaling, Scene, Stiffness};
 use pounding::structure::Modes;
 use pounding_simulate::STEP;
 use pounding_simulate::layout::Layout;
@@ -22,8 +22,8 @@ pub fn look(given: &Given<'_>) -> Result<Answer, Refusal> {
         "stop": scenario.stop(),
         "stopTime": scene.stop_time,
         "layout": Layout::of(scene),
-        "left": building(scene.building(BuildingId::LEFT)),
-        "right": building(scene.building(BuildingId::RIGHT)),
+        "left": building(scene.buildings.first()),
+        "right": building(scene.buildings.get(1)),
         "contacts": contacts(&scenario),
         "facing": scene.facing.is_some(),
         "energy": scene.energy,
@@ -35,10 +35,8 @@ pub fn look(given: &Given<'_>) -> Result<Answer, Refusal> {
 }
 
 /// Masses, kg, stiffnesses, N/m, heights of storeys, m, and periods, s, of a building; nothing where there is none.
-fn building(building: &Building) -> Value {
-    if building.is_absent() {
-        return Value::Null;
-    }
+fn building(building: Option<&Building>) -> Value {
+    let Some(building) = building else { return Value::Null };
     let stiffness = match &building.stiffness {
         Stiffness::Shear(each) => Some(each),
         _ => None,

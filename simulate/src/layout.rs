@@ -11,15 +11,16 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub struct Layout<'a> {
     name: &'a str,
-    left: Standing,
-    right: Standing,
+    /// From left to right.
+    buildings: Vec<Standing<'a>>,
     contacts: Vec<Contact<'a>>,
     links: Vec<Device<'a>>,
 }
 
-/// A building; one without floors is not there.
+/// A building.
 #[derive(Serialize)]
-struct Standing {
+struct Standing<'a> {
+    name: &'a str,
     floors: usize,
     /// m, from the ground floor up, where the scene has heights.
     levels: Option<Vec<f64>>,
@@ -86,17 +87,11 @@ impl Layout<'_> {
     pub fn of(scene: &Scene) -> Layout<'_> {
         let contacts = scene.contacts.iter().map(|pair| contact(scene, pair)).collect();
         let links = scene.links.iter().map(|link| device(scene, link)).collect();
-        Layout {
-            name: &scene.name,
-            left: standing(scene.building(BuildingId::LEFT)),
-            right: standing(scene.building(BuildingId::RIGHT)),
-            contacts,
-            links,
-        }
+        Layout { name: &scene.name, buildings: scene.buildings.iter().map(standing).collect(), contacts, links }
     }
 }
 
-fn standing(building: &Building) -> Standing {
+fn standing(building: &Building) -> Standing<'_> {
     let floors = building.mass.len();
     let levels = building.heights.as_ref().map(|heights| (0..=floors).map(|floor| heights.level(floor)).collect());
     let soils = building.foundation.as_ref().map(|foundation| Soils {
@@ -104,7 +99,7 @@ fn standing(building: &Building) -> Standing {
         sway: parts(foundation.sway),
         rocking: parts(foundation.rocking),
     });
-    Standing { floors, levels, foundation: soils }
+    Standing { name: &building.name, floors, levels, foundation: soils }
 }
 
 fn parts(soil: Option<Soil>) -> Vec<Part> {

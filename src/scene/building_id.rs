@@ -49,9 +49,4 @@ impl Scene {
     pub fn building_mut(&mut self, id: BuildingId) -> &mut Building {
         &mut self.buildings[id.index()]
     }
-
-    /// Whether a contact or a link is with a building.
-    pub(super) fn is_met(&self, id: BuildingId) -> bool {
-        self.contacts.iter().any(|pair| pair.is_with(id)) || self.links.iter().any(|link| link.is_with(id))
-    }
 }

@@ -45,18 +45,15 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     let mut check = Checker::new(scene.units);
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
-    let is_wanted = |(id, building): &(BuildingId, &Building)| {
-        *id == BuildingId::LEFT || !building.is_absent() || scene.is_met(*id)
-    };
-    for (_, building) in scene.ids().zip(&scene.buildings).filter(is_wanted) {
-        check.building(&building.name, building);
-    }
+    scene.buildings.iter().for_each(|building| check.building(&building.path, building));
     check.ground(&scene.ground);
     for (i, pair) in scene.contacts.iter().enumerate() {
         check.contact(&format!("contact[{}]", i + 1), pair, scene);
     }
-    scene.facing.inspect(|&tolerance| check.number("facing.level_tolerance", tolerance, rule::LEVEL_TOLERANCE));
-    check.pairs_differ(&scene.contacts);
+    if let Some(facing) = scene.facing {
+        check.number("facing.level_tolerance", facing.level_tolerance, rule::LEVEL_TOLERANCE);
+    }
+    check.pairs_differ(scene);
     for (i, link) in scene.links.iter().enumerate() {
         check.link(&format!("link[{}]", i + 1), link, scene);
     }
@@ -214,13 +211,13 @@ impl Checker {
 
     /// Whether a building has that floor or storey, counted from 1; `what` says which of both it is.
     fn floor(&mut self, path: &str, (side, id): (Side, BuildingId), number: usize, what: &str, scene: &Scene) {
-        let Building { name, mass, .. } = scene.building(id);
-        let floors = mass.len();
+        let building = scene.building(id);
+        let floors = building.mass.len();
         if number >= 1 && (floors == 0 || number <= floors) {
             return;
         }
         let range = if floors == 0 { "from 1 on".to_owned() } else { format!("from 1 to {floors}") };
-        let expected = format!("a {what} of the {name} building, {range}");
+        let expected = format!("a {what} of {}, {range}", building.called());
         self.refuse(format_args!("{path}.{side}_{what}"), number.to_string(), expected);
     }
 
@@ -257,24 +254,25 @@ impl Checker {
 
     /// Whether a link at floor 0 has something to move.
     fn held_foundation(&mut self, path: &str, (side, id): (Side, BuildingId), scene: &Scene) {
-        let Building { name, foundation, .. } = scene.building(id);
-        let why = match foundation {
+        let building = scene.building(id);
+        let why = match &building.foundation {
             Some(foundation) if foundation.sway.is_some() => return,
             Some(_) => "that of the building does not sway",
             None => "the building has none: the ground is a wall",
         };
-        let expected = format!("a floor of the {name} building, counted from 1; 0 is the foundation, and {why}");
+        let expected = format!("a floor of {}, counted from 1; 0 is the foundation, and {why}", building.called());
         self.refuse(format_args!("{path}.{side}_floor"), "0", expected);
     }
 
-    fn pairs_differ(&mut self, contacts: &[ContactPair]) {
+    fn pairs_differ(&mut self, scene: &Scene) {
         let mut seen = HashMap::new();
-        for (i, pair) in contacts.iter().enumerate() {
+        for (i, pair) in scene.contacts.iter().enumerate() {
             let keys = [key(pair.left), key(pair.right)];
             let first = *seen.entry(keys).or_insert(i);
-            let is_known = keys.iter().all(|key| key.is_none_or(|(_, _, number)| number > 0));
+            let is_known = keys.iter().all(|key| key.is_none_or(|(_, _, number)| number > 0)) && keys != [None, None];
             if first != i && is_known {
-                let expected = format!("a pair other than that of contact[{}]", first + 1);
+                let other = scene.path_in_file(&format!("contact[{}]", first + 1));
+                let expected = format!("a pair other than that of {other}");
                 self.refuse(format_args!("contact[{}]", i + 1), written(pair), expected);
             }
         }

@@ -33,7 +33,7 @@ impl Checker {
                 [(foundation.sway, "sway", 1.0, "N/m"), (foundation.rocking, "rocking", height * height, "N m/rad")];
             for (soil, way, lever, unit) in soils {
                 let Some(soil) = soil else { continue };
-                let path = format_args!("{}.foundation.{way}.stiffness", building.name);
+                let path = format_args!("{}.foundation.{way}.stiffness", building.path);
                 self.spring(path, soil.stiffness, softest * lever, unit);
             }
         }

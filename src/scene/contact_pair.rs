@@ -16,6 +16,8 @@ pub struct ContactPair {
     pub gap: f64,
     /// Force of the contact.
     pub law: ImpactLaw,
+    /// At a wall, whose key the one floor has in the file, `left_floor` or `right_floor`: the wall may be on either side.
+    pub floor_key: Option<Side>,
 }
 
 /// One side of a contact.
@@ -82,6 +84,11 @@ impl Face {
 }
 
 impl ContactPair {
+    /// Of two faces, the one on the left of the gap first.
+    pub const fn new([left, right]: [Face; 2], gap: f64, law: ImpactLaw) -> ContactPair {
+        ContactPair { left, right, gap, law, floor_key: None }
+    }
+
     /// What is on a side of the gap.
     pub const fn face(&self, side: Side) -> Face {
         match side {
@@ -90,14 +97,9 @@ impl ContactPair {
         }
     }
 
-    /// Whose keys a scene has for what is on a side of the gap: those of that side. But at a wall on either side of its building
-    /// they are those of `[left]` or `[right]`.
+    /// Whose keys a scene has for what is on a side of the gap: those of that side, but at a wall.
     pub fn key_side(&self, side: Side) -> Side {
-        match (self.face(side).building(), self.face(side.opposite())) {
-            (Some(building), Face::Wall) if building == BuildingId::LEFT => Side::Left,
-            (Some(_), Face::Wall) => Side::Right,
-            _ => side,
-        }
+        self.floor_key.unwrap_or(side)
     }
 
     /// Where columns are hit, if they are.

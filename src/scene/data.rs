@@ -1,6 +1,7 @@
 //! The scene as data, field by field. Contacts: `contact_pair`.
 
 use super::contact_pair::ContactPair;
+use super::facing::Facing;
 use super::foundation::Foundation;
 use super::levels::Heights;
 use super::link::Link;
@@ -22,7 +23,7 @@ pub struct Scene {
     pub units: Units,
     /// s, end of the default experiment.
     pub stop_time: Option<f64>,
-    /// The buildings, from left to right: `[left]` and `[right]`, which is without floors where there is none.
+    /// The buildings, from left to right: `[left]` and `[right]`, or those of the `[[building]]` tables.
     pub buildings: Vec<Building>,
     /// Ground motion.
     pub ground: Ground,
@@ -35,8 +36,8 @@ pub struct Scene {
     pub contacts: Vec<ContactPair>,
     /// Devices between the buildings, or between a floor and the ground.
     pub links: Vec<Link>,
-    /// m, `facing.level_tolerance` where `[facing]` has made the contacts.
-    pub facing: Option<f64>,
+    /// What `[facing]` has made, where the scene has it.
+    pub facing: Option<Facing>,
     /// `outputs.energy`: the energy account exists.
     pub energy: bool,
     /// `outputs.peaks`: the largest displacements, drifts, accelerations and base shears so far exist.
@@ -53,6 +54,8 @@ pub struct Scene {
 pub struct Building {
     /// What it is called: the beginning of the names of its variables.
     pub name: String,
+    /// Where it stands in the file of the scene, such as `left` or `building[2]`: the beginning of the paths of its keys.
+    pub path: String,
     /// kg, one per floor.
     pub mass: Vec<f64>,
     /// N/m.
@@ -102,8 +105,10 @@ impl Building {
     /// A building at rest whose storeys stay elastic, without heights.
     pub fn new(name: impl Into<String>, mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
         let (initial_displacement, initial_velocity) = (vec![0.0; mass.len()], vec![0.0; mass.len()]);
+        let name = name.into();
         Building {
-            name: name.into(),
+            path: name.clone(),
+            name,
             mass,
             stiffness,
             damping,
@@ -194,9 +199,9 @@ pub struct Solver {
 }
 
 impl Building {
-    /// No building where one of that name could be.
-    pub fn absent(name: impl Into<String>) -> Building {
-        Building::new(name, Vec::new(), Stiffness::Shear(Vec::new()), Damping::Ratio(0.0))
+    /// How messages call it: "the left building", or in a row `building "corner"`.
+    pub fn called(&self) -> String {
+        if self.path == self.name { format!("the {} building", self.name) } else { format!("building {:?}", self.name) }
     }
 
     /// Yield force, N, and post-yield ratio of a storey, counted from 0, that can yield.
@@ -209,11 +214,6 @@ impl Building {
     pub fn initial_drift(&self, storey: usize) -> f64 {
         let of = |floor: usize| self.initial_displacement[floor];
         of(storey) - storey.checked_sub(1).map_or(0.0, of)
-    }
-
-    /// Whether there is no such building.
-    pub const fn is_absent(&self) -> bool {
-        self.mass.is_empty()
     }
 }
 

@@ -148,21 +148,21 @@ impl<'t> Section<'t> {
         }
     }
 
-    /// Reports that a table below this one has no such key.
-    pub(super) fn missing_in(&self, table: &str, key: &str, what: &str) {
-        self.document.report(&join(&join(&self.path, table), key), "", format!("{what} (missing)"));
+    /// Reports what is wrong at a path below this table, as it is written there.
+    pub(super) fn refuse_at(&self, below: &str, found: &str, expected: impl Into<String>) {
+        let path = if self.path.is_empty() { below.to_owned() } else { format!("{}.{below}", self.path) };
+        self.document.report(&path, found, expected);
+    }
+
+    /// Where it stands.
+    pub(super) fn path(&self) -> &str {
+        &self.path
     }
 
     /// The table of a key; absent where the key is.
     pub(super) fn section(&mut self, key: &'static str) -> Section<'t> {
         let path = join(&self.path, key);
         self.get(key).map_or_else(|| self.absent(path), |item| item.section())
-    }
-
-    /// The table of a key that must be there; `what` says what for.
-    pub(super) fn require_section(&mut self, key: &'static str, what: &str) -> Section<'t> {
-        let path = join(&self.path, key);
-        self.require(key, what).map_or_else(|| self.absent(path), |item| item.section())
     }
 
     /// Reports that something is wrong with the table as a whole.
@@ -191,6 +191,11 @@ impl<'t> Section<'t> {
 impl<'t> Item<'t> {
     pub(super) fn refuse(&self, expected: impl Into<String>) {
         self.document.report(&self.path, self.document.source(self.value), expected);
+    }
+
+    /// The same of what shows as `found`.
+    pub(super) fn refuse_as(&self, found: &str, expected: impl Into<String>) {
+        self.document.report(&self.path, found, expected);
     }
 
     /// What has been made of the value; where that is nothing, it is refused.

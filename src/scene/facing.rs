@@ -1,18 +1,29 @@
-//! `[facing]`: the contacts of two neighbours by the levels of their floors.
+//! `[facing]`: the contacts of all neighbours by the levels of their floors.
 
 use super::building_id::BuildingId;
 use super::contact_pair::{ColumnShape, ContactPair, Face};
+use super::data::Scene;
 use super::levels::{Heights, ROUNDING};
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
-/// The keys of `[facing]`: what all contacts have that it makes.
-pub(super) struct Facing {
+/// What `[facing]` has made of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Facing {
+    /// m, by which floors that meet may differ in level.
+    pub level_tolerance: f64,
+    /// How many of the scene's contacts, from the first on, are made by it; further ones are with walls.
+    pub contacts: usize,
+    /// Whether the file has a list with one gap for each pair of neighbours.
+    pub has_gaps: bool,
+}
+
+/// The keys of `[facing]`: what all contacts of two neighbours have.
+pub(super) struct FacingKeys {
     /// m, by which floors that meet may differ in level.
     pub level_tolerance: f64,
     pub column_shape: ColumnShape,
-    /// m.
-    pub gap: f64,
     pub law: ImpactLaw,
 }
 
@@ -23,11 +34,33 @@ struct Faced {
     level: f64,
 }
 
-impl Facing {
+impl Scene {
+    /// Where in the file something stands that has a path in the scene. What is wrong with a contact that `[facing]` has made
+    /// is wrong with that; contacts of the file are counted without those.
+    pub fn path_in_file(&self, path: &str) -> String {
+        let in_contact = || {
+            let (number, rest) = path.strip_prefix("contact[")?.split_once(']')?;
+            Some((self.facing?, number.parse::<usize>().ok()?.checked_sub(1)?, rest))
+        };
+        match in_contact() {
+            None => path.to_owned(),
+            Some((facing, index, rest)) if index >= facing.contacts => {
+                format!("contact[{}]{rest}", index + 1 - facing.contacts)
+            }
+            Some((Facing { has_gaps: true, .. }, index, ".gap")) => {
+                let left = self.contacts.get(index).and_then(|pair| pair.left.building());
+                format!("facing.gap[{}]", left.map_or(1, |left| left.index() + 1))
+            }
+            Some((.., rest)) => format!("facing{rest}"),
+        }
+    }
+}
+
+impl FacingKeys {
     /// One contact for every floor of either building that faces the other one: with a floor whose level differs by no
     /// more than the tolerance, else with the columns of the storey that it stands before. Floors above the other
     /// building's roof, or not above its ground floor, face nothing. From the lowest level up.
-    pub(super) fn contacts(&self, [left, right]: [(BuildingId, &Heights); 2]) -> Vec<ContactPair> {
+    pub(super) fn contacts(&self, [left, right]: [(BuildingId, &Heights); 2], gap: f64) -> Vec<ContactPair> {
         let mut faces: Vec<(f64, [Face; 2])> = Vec::new();
         for (side, (id, own), other) in [(Side::Left, left, right), (Side::Right, right, left)] {
             for floor in 1..=own.storeys.len() {
@@ -43,8 +76,7 @@ impl Facing {
             }
         }
         faces.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let (gap, law) = (self.gap, self.law);
-        faces.into_iter().map(|(_, [left, right])| ContactPair { left, right, gap, law }).collect()
+        faces.into_iter().map(|(_, faces)| ContactPair::new(faces, gap, self.law)).collect()
     }
 
     /// What of the other building a floor of that level faces.

@@ -1,12 +1,12 @@
 //! The keys of a scene file, one after the other.
 
 use super::building_id::BuildingId;
-use super::data::{Building, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
-use super::document::{self, Document, Item, KEY, Section, TextSpan};
-use super::levels::Heights;
+use super::data::{Ground, Scaling, Scene, Solver};
+use super::document::{self, Document, KEY, Section, TextSpan};
 use super::problem::{Problem, SceneError, excerpt};
+use super::read_row::{self, Row};
 use super::units::{self, Units};
-use super::{check, read_contacts, read_foundation, read_links, read_record, rule};
+use super::{check, read_contacts, read_links, read_record, rule};
 use std::collections::{HashMap, HashSet};
 
 impl Scene {
@@ -36,7 +36,7 @@ impl<'t> Draft<'t> {
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
         if scene.facing.is_some() {
-            tell_of_facing(&mut wrong_values);
+            tell_in_file(&mut wrong_values, &scene);
         }
         write_as_found(&mut wrong_values, text, &document::spans(&table));
         wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
@@ -70,11 +70,8 @@ impl<'t> Draft<'t> {
 }
 
 /// What is wrong with all contacts that `[facing]` has made is wrong with it, and told once.
-fn tell_of_facing(problems: &mut Vec<Problem>) {
-    for problem in problems.iter_mut().filter(|problem| problem.path.starts_with("contact[")) {
-        let key = problem.path.split_once("].").map(|(_, key)| format!("facing.{key}"));
-        problem.path = key.unwrap_or_else(|| "facing".to_owned());
-    }
+fn tell_in_file(problems: &mut Vec<Problem>, scene: &Scene) {
+    problems.iter_mut().for_each(|problem| problem.path = scene.path_in_file(&problem.path));
     let mut told = HashSet::new();
     problems.retain(|problem| !problem.path.starts_with("facing") || told.insert(problem.path.clone()));
 }
@@ -96,25 +93,21 @@ fn scene(mut root: Section<'_>) -> Scene {
     let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
     let units = root.get("units").and_then(|item| item.named(Units::from_name, units::expected)).unwrap_or_default();
     let stop_time = root.get("stop_time").map(|item| item.number());
-    let left = building("left", root.require_section("left", "the building on the left"), units);
-    let right = root.get("right").map(|item| building("right", item.section(), units));
+    let mut row = Row::read(&mut root, units);
     let ground = ground(root.section("ground"));
     let (floor_forces, restoring_corrections) = inputs(root.section("inputs"));
-    let (contacts, facing) = read_contacts::all(
-        &mut root,
-        [(BuildingId::LEFT, &left), (BuildingId::RIGHT, right.as_ref().unwrap_or(&Building::absent("right")))],
-        units,
-    );
-    let links = read_links::all(&mut root, units);
-    let is_met = facing.is_some() || contacts.iter().any(|pair| pair.is_with(BuildingId::RIGHT));
-    match right.is_none() {
-        true if is_met => root.missing("right", "the building on the right, which contacts are with"),
-        true if links.iter().any(|link| link.is_with(BuildingId::RIGHT)) => {
-            root.missing("right", "the building on the right, which links are with");
+    let (contacts, facing) = read_contacts::all(&mut root, &row, units);
+    let links = read_links::all(&mut root, &row, units);
+    let with_right = |what| root.missing("right", &format!("the building on the right, which {what} are with"));
+    if !row.is_named && row.buildings.len() == 1 {
+        if facing.is_some() || contacts.iter().any(|pair| pair.is_with(BuildingId::RIGHT)) {
+            with_right("contacts");
+            row.buildings.push(read_row::absent("right"));
+        } else if links.iter().any(|link| link.is_with(BuildingId::RIGHT)) {
+            with_right("links");
+            row.buildings.push(read_row::absent("right"));
         }
-        _ => {}
     }
-    let right = right.unwrap_or_else(|| Building::absent("right"));
     let Shown { energy, peaks, numbers_only } = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
@@ -124,7 +117,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         description,
         units,
         stop_time,
-        buildings: vec![left, right],
+        buildings: row.buildings,
         ground,
         floor_forces,
         restoring_corrections,
@@ -136,178 +129,6 @@ fn scene(mut root: Section<'_>) -> Scene {
         numbers_only,
         solver,
     }
-}
-
-fn building(name: &str, mut section: Section<'_>, units: Units) -> Building {
-    let what = format!("a list of masses in {}, one per floor", units.unit("kg"));
-    let mass = section.require("mass", &what).map(|item| {
-        let mass = item.quantities(units);
-        if mass.is_empty() && item.is_list() {
-            item.refuse("at least one floor");
-        }
-        mass
-    });
-    let mass = mass.unwrap_or_default();
-    let stiffness = stiffness(&mut section, units);
-    let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, dashpots, matrix");
-    let damping = match damping {
-        Some(item) if item.is_number() => {
-            item.refuse(format!("a table, such as {{ ratio = {} }}", item.written()));
-            Damping::Ratio(0.0)
-        }
-        Some(item) => self::damping(item.section(), units),
-        None => Damping::Ratio(0.0),
-    };
-    let mut building = Building::new(name, mass, stiffness, damping);
-    section.get("initial_displacement").inspect(|item| building.initial_displacement = item.numbers());
-    section.get("initial_velocity").inspect(|item| building.initial_velocity = item.numbers());
-    building.heights = heights(&mut section);
-    building.yielding = yielding(&mut section, &building.stiffness, building.mass.len(), units);
-    building.p_delta = p_delta(&mut section, building.yielding.is_some(), building.mass.len(), units);
-    building.foundation = read_foundation::of_building(&mut section, units);
-    section.close(KEY);
-    building
-}
-
-const ONLY_THOSE_COLLAPSE: &str = "yield_force as well: only storeys that yield collapse";
-
-fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Units) -> Option<PDelta> {
-    let (leaning, load) = (section.get("p_delta"), section.get("gravity_load"));
-    let ratio = section.get("collapse_drift_ratio");
-    let Some(leaning) = leaning else {
-        if let Some(load) = load {
-            load.refuse("p_delta as well, the storeys that gravity pushes on as they lean");
-            load.look_at_list(rule::GRAVITY_LOAD, units, storeys, "floor");
-        }
-        if let Some(ratio) = ratio {
-            ratio.refuse("p_delta as well: without gravity no storey collapses");
-            if !can_yield {
-                ratio.refuse(ONLY_THOSE_COLLAPSE);
-            }
-            ratio.look_at(rule::COLLAPSE_DRIFT_RATIO, units);
-        }
-        return None;
-    };
-    let mut p_delta = PDelta::new(match leaning.is_list() {
-        true => leaning.list("true, false or a list of them").iter().flatten().map(|entry| entry.boolean()).collect(),
-        false => vec![leaning.boolean(); storeys],
-    });
-    p_delta.load = load.map(|item| item.quantities(units));
-    if let Some(item) = ratio {
-        match can_yield {
-            true => p_delta.collapse_drift_ratio = item.number(),
-            false => {
-                item.refuse(ONLY_THOSE_COLLAPSE);
-                item.look_at(rule::COLLAPSE_DRIFT_RATIO, units);
-            }
-        }
-    }
-    Some(p_delta)
-}
-
-fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, storeys: usize, units: Units) -> Option<Yielding> {
-    let (force, ratio) = (section.get("yield_force"), section.get("post_yield_ratio"));
-    let Some(force) = force else {
-        if let Some(ratio) = ratio {
-            ratio.refuse("yield_force as well, the storey shears at first yield");
-            look_at_ratio(&ratio, storeys);
-        }
-        return None;
-    };
-    if matches!(stiffness, Stiffness::Matrix(_)) {
-        force.refuse("a shear building, with stiffness instead of stiffness_matrix: only storeys yield");
-        force.look_at_list(rule::YIELD_FORCE, units, storeys, "storey");
-        ratio.inspect(|ratio| look_at_ratio(ratio, storeys));
-        return None;
-    }
-    let force = force.quantities(units);
-    let ratio = match ratio {
-        None => vec![0.0; force.len()],
-        Some(item) if item.is_number() => {
-            let rule = rule::POST_YIELD_RATIO;
-            let ratio = Some(item.number()).filter(|ratio| rule.holds(*ratio));
-            vec![item.found(ratio, rule.expected(Units::Si)).unwrap_or(0.0); force.len()]
-        }
-        Some(item) => item.numbers(),
-    };
-    Some(Yielding { force, ratio })
-}
-
-/// What is wrong with post-yield ratios, one or one per storey, of storeys that do not yield.
-fn look_at_ratio(ratio: &Item<'_>, storeys: usize) {
-    match ratio.is_list() {
-        true => ratio.look_at_list(rule::POST_YIELD_RATIO, Units::Si, storeys, "storey"),
-        false => ratio.look_at(rule::POST_YIELD_RATIO, Units::Si),
-    }
-}
-
-fn heights(section: &mut Section<'_>) -> Option<Heights> {
-    let (storeys, base_level) = (section.get("height"), section.get("base_level"));
-    let Some(storeys) = storeys else {
-        if let Some(level) = base_level {
-            level.refuse("height as well, the heights of the storeys above that level");
-            level.look_at(rule::LEVEL, Units::Si);
-        }
-        return None;
-    };
-    Some(Heights { storeys: storeys.numbers(), base_level: base_level.map_or(0.0, |item| item.number()) })
-}
-
-fn stiffness(section: &mut Section<'_>, units: Units) -> Stiffness {
-    match (section.get("stiffness"), section.get("stiffness_matrix")) {
-        (None, Some(matrix)) => Stiffness::Matrix(matrix.rows(units)),
-        (Some(storeys), None) => Stiffness::Shear(storeys.quantities(units)),
-        (Some(storeys), Some(matrix)) => {
-            matrix.refuse("either stiffness or stiffness_matrix, not both");
-            Stiffness::Shear(storeys.quantities(units))
-        }
-        (None, None) => {
-            let what = format!("a list in {}, one per storey, or stiffness_matrix", units.unit("N/m"));
-            section.missing("stiffness", &what);
-            Stiffness::Shear(Vec::new())
-        }
-    }
-}
-
-fn damping(mut section: Section<'_>, units: Units) -> Damping {
-    type Kind = (&'static str, fn(&Item<'_>, Units) -> Damping);
-    const KINDS: [Kind; 5] = [
-        ("ratio", |item, _| Damping::Ratio(item.number())),
-        ("ratios", |item, _| Damping::Ratios(item.numbers())),
-        ("rayleigh", |item, _| rayleigh(item.section())),
-        ("dashpots", |item, units| Damping::Dashpots(item.quantities(units))),
-        ("matrix", |item, units| Damping::Matrix(item.rows(units))),
-    ];
-    let mut damping = None;
-    for (kind, read) in KINDS {
-        match (section.get(kind), &damping) {
-            (None, _) => {}
-            (Some(item), None) => damping = Some(read(&item, units)),
-            (Some(item), Some(_)) => item.refuse("one kind of damping only"),
-        }
-    }
-    if damping.is_none() {
-        section.refuse("one of ratio, ratios, rayleigh, dashpots, matrix");
-    }
-    section.close(KEY);
-    damping.unwrap_or(Damping::Ratio(0.0))
-}
-
-fn rayleigh(mut section: Section<'_>) -> Damping {
-    let ratio = section.require("ratio", "the damping ratio in both modes").map_or(0.0, |item| item.number());
-    let modes = section.require("modes", "two modes, counted from 1").map_or([1, 2], |item| two_modes(&item));
-    section.close(KEY);
-    Damping::Rayleigh { ratio, modes }
-}
-
-fn two_modes(item: &Item<'_>) -> [usize; 2] {
-    let expected = "two modes, counted from 1";
-    match item.list(expected).as_deref() {
-        Some([first, second]) => return [first.count(), second.count()],
-        Some(_) => item.refuse(expected),
-        None => {}
-    }
-    [1, 2]
 }
 
 fn ground(mut section: Section<'_>) -> Ground {

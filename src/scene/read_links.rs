@@ -4,6 +4,7 @@ use super::building_id::BuildingId;
 use super::document::{Item, KEY, Section};
 use super::link::{Link, Slip};
 use super::place::Place;
+use super::read_row::Row;
 use super::side::Side;
 use super::units::Units;
 
@@ -12,12 +13,12 @@ const FLOORS: [&str; 2] = ["left_floor", "right_floor"];
 const FLOOR: &str = "a floor, counted from 1";
 
 /// All links of a scene.
-pub(super) fn all(root: &mut Section<'_>, units: Units) -> Vec<Link> {
-    root.get("link").iter().flat_map(|item| item.tables("link")).map(|section| link(section, units)).collect()
+pub(super) fn all(root: &mut Section<'_>, row: &Row, units: Units) -> Vec<Link> {
+    root.get("link").iter().flat_map(|item| item.tables("link")).map(|section| link(section, row, units)).collect()
 }
 
-fn link(mut section: Section<'_>, units: Units) -> Link {
-    let [left, right] = ends(&mut section);
+fn link(mut section: Section<'_>, row: &Row, units: Units) -> Link {
+    let [left, right] = ends(&mut section, row);
     for key in ["left_storey", "right_storey", "left_position", "right_position", "column_shape"] {
         section.refuse_key(key, "left_floor and right_floor: devices are anchored at floors, not at columns");
     }
@@ -56,12 +57,14 @@ fn link(mut section: Section<'_>, units: Units) -> Link {
 }
 
 /// The ends on the left and on the right; `None` is the ground, as a wall opposite of a floor.
-fn ends(section: &mut Section<'_>) -> [Option<(BuildingId, Place)>; 2] {
+fn ends(section: &mut Section<'_>, row: &Row) -> [Option<(BuildingId, Place)>; 2] {
     let (floors, wall) = (FLOORS.map(|key| section.get(key)), section.get("wall"));
+    let one = if floors[0].is_some() { Side::Left } else { Side::Right };
+    let ends = row.ends(section, wall.is_some().then_some(one));
     match (&floors, &wall) {
         ([None, None], _) => {
             section.missing(FLOORS[0], &format!("{FLOOR}, and right_floor, or one of them and a wall"));
-            return [Some((BuildingId::LEFT, Place::Floor(0))), None];
+            return [ends[0].map(|id| (id, Place::Floor(0))), None];
         }
         ([Some(_), Some(_)], Some(wall)) => wall.refuse("no wall beside left_floor and right_floor: two ends only"),
         ([Some(_), Some(_)], None) => {}
@@ -74,9 +77,11 @@ fn ends(section: &mut Section<'_>) -> [Option<(BuildingId, Place)>; 2] {
             }
         }
     }
-    let [left, right] = floors;
-    let end = |id: BuildingId, floor: Option<Item<'_>>| Some((id, place(&floor?)));
-    [end(BuildingId::LEFT, left), end(BuildingId::RIGHT, right)]
+    let end = |side: Side| {
+        let place = place(floors[side as usize].as_ref()?);
+        Some((ends[side as usize]?, place))
+    };
+    Side::BOTH.map(end)
 }
 
 /// From the number of a floor, counted from 1; 0 is the foundation.

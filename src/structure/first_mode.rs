@@ -90,19 +90,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn building(floors: usize, stiffness: Stiffness) -> Building {
-        let rest = vec![0.0; floors];
-        Building {
-            name: "left".to_owned(),
-            mass: vec![2.0; floors],
-            stiffness,
-            damping: Damping::Ratio(0.0),
-            initial_displacement: rest.clone(),
-            initial_velocity: rest,
-            heights: None,
-            yielding: None,
-            p_delta: None,
-            foundation: None,
-        }
+        Building::new("left", vec![2.0; floors], stiffness, Damping::Ratio(0.0))
     }
 
     /// Equal storeys have w1 = 2 sqrt(k/m) sin(pi / (4 n + 2)), and w1^2 of [[2, -1], [-1, 2]] / 2 is 1/2.

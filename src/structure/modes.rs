@@ -42,9 +42,6 @@ pub struct NotPositiveDefinite;
 impl Modes {
     /// Solves K shape = M shape omega^2.
     pub fn of(building: &Building) -> Result<Modes, NotPositiveDefinite> {
-        if building.is_absent() {
-            return Ok(Modes::none());
-        }
         let mass = DVector::from_column_slice(&building.mass);
         let (omega, shape) = solve(&mass, &stiffness_factor(&building.net_stiffness())?)?;
         let participation = shape.tr_mul(&mass).as_slice().to_vec();
@@ -85,12 +82,6 @@ pub(super) fn solve(
 }
 
 impl Modes {
-    /// Those of no building.
-    fn none() -> Modes {
-        let shape = DMatrix::zeros(0, 0);
-        Modes { omega: Vec::new(), shape, participation: Vec::new(), damping: ModalDamping::Diagonal(Vec::new()) }
-    }
-
     /// Whether no other mode has nearly the frequency of this one.
     pub fn is_single(&self, mode: usize) -> bool {
         let near = |w: f64| (w - self.omega[mode]).abs() <= 1e-6 * self.omega[mode];

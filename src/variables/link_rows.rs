@@ -68,7 +68,7 @@ impl Table {
 
     /// What the buildings have together, with their links and on their soil.
     pub(super) fn add_system(&mut self, scene: &Scene) {
-        let buildings = || scene.buildings.iter().filter(|building| !building.is_absent());
+        let buildings = || scene.buildings.iter();
         let typical = buildings().map(typical_frequency).fold(0.0, f64::max);
         let is_on_soil = buildings().any(|building| building.foundation.is_some());
         let with = match (scene.links.is_empty(), is_on_soil) {

@@ -19,9 +19,6 @@ impl Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
         for (id, building) in scene.ids().zip(&scene.buildings) {
-            if building.is_absent() {
-                continue;
-            }
             for floor in 0..building.mass.len() {
                 table.add_inputs(scene, id, floor);
                 table.add_floor(building, id, floor);

@@ -18,7 +18,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for id in facts.scene.ids() {
         let building = facts.building(id);
         look_at_entries(facts, id, found);
-        if ["mass", "stiffness"].iter().all(|key| !found.has(&format!("{}.{key}", building.name))) {
+        if ["mass", "stiffness"].iter().all(|key| !found.has(&format!("{}.{key}", building.path))) {
             look_at_period(facts, id, found);
             facts.neighbours(id).for_each(|other| look_at_storey_masses(facts, (id, other), found));
         }
@@ -30,7 +30,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 /// Entries of a list that the others speak against.
 fn look_at_entries<'a>(facts: &Facts<'a>, id: BuildingId, found: &mut Found) {
     let (building, units) = (facts.building(id), facts.scene.units);
-    let name = &building.name;
+    let name = &building.path;
     let mut tell = |(key, unit): (&str, &str), values: &[f64], odd: Vec<OddEntry>, beside: &str| {
         for OddEntry { index, factor } in odd {
             let times = how_many_times(factor);
@@ -126,7 +126,7 @@ fn look_at_period(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
         Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => return,
     };
     let text = format!("{found_here}, far too {far_too} for {usual}; {meant}");
-    let path = |key: &str| format!("{}.{key}", building.name);
+    let path = |key: &str| format!("{}.{key}", building.path);
     match &building.stiffness {
         _ if is_mass => found.quantities(path("mass"), &building.mass, text),
         Stiffness::Shear(storeys) => found.quantities(path(stiffness_key(building)), storeys, text),
@@ -180,16 +180,16 @@ fn look_at_storey_masses(facts: &Facts<'_>, (id, other): (BuildingId, BuildingId
         Units::KilonewtonTonne => (other, id, heavier, Units::Si),
     };
     let text = format!(
-        "a floor has {} the mass of one of the {} building, at usual periods of both; masses are in {} and stiffnesses in \
+        "a floor has {} the mass of one of {}, at usual periods of both; masses are in {} and stiffnesses in \
          {}, were those of this building given in {} and {}?",
         how_many_times(factor),
-        facts.building(beside).name,
+        facts.building(beside).called(),
         units.unit("kg"),
         units.unit("N/m"),
         meant.unit("kg"),
         meant.unit("N/m")
     );
-    found.quantities(format!("{}.mass", facts.building(odd).name), &facts.building(odd).mass, text);
+    found.quantities(format!("{}.mass", facts.building(odd).path), &facts.building(odd).mass, text);
 }
 
 fn storeys(count: usize) -> String {
@@ -197,7 +197,7 @@ fn storeys(count: usize) -> String {
 }
 
 fn look_at_damping(facts: &Facts<'_>, id: BuildingId, building: &Building, found: &mut Found) {
-    let path = format!("{}.damping", building.name);
+    let path = format!("{}.damping", building.path);
     let (path, ratio) = match &building.damping {
         Damping::Ratio(ratio) => (format!("{path}.ratio"), *ratio),
         Damping::Rayleigh { ratio, .. } => (format!("{path}.rayleigh.ratio"), *ratio),
@@ -254,7 +254,7 @@ fn look_at_first_mode(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
         short(ratio),
         facts.scene.units.unit("N s/m")
     );
-    let name = &building.name;
+    let name = &building.path;
     match &building.damping {
         Damping::Dashpots(storeys) => found.quantities(format!("{name}.damping.dashpots"), storeys, text),
         Damping::Matrix(rows) => found.matrix(format!("{name}.damping.matrix"), rows, text),
@@ -284,7 +284,7 @@ fn look_at_start(facts: &Facts<'_>, id: BuildingId, building: &Building, found: 
         let aside = short(displacement);
         let text =
             format!("the building starts up to {aside} m aside{held}; displacements are in m, were they given in mm?");
-        found.numbers(format!("{}.initial_displacement", building.name), &building.initial_displacement, text);
+        found.numbers(format!("{}.initial_displacement", building.path), &building.initial_displacement, text);
     }
     look_at_speed(building, omega, largest(&building.initial_velocity), found);
 }
@@ -296,6 +296,6 @@ fn look_at_speed(building: &Building, omega: f64, speed: f64, found: &mut Found)
              m/s, were they given in mm/s or cm/s?",
             short(3.6 * speed)
         );
-        found.numbers(format!("{}.initial_velocity", building.name), &building.initial_velocity, text);
+        found.numbers(format!("{}.initial_velocity", building.path), &building.initial_velocity, text);
     }
 }

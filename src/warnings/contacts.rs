@@ -7,7 +7,7 @@ use super::whole::IN_KN_T;
 use crate::contact::LawKey;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, ContactPair, Scene, Units, law_key};
+use crate::scene::{ContactPair, Scene, Units, law_key};
 use std::cmp::Ordering;
 
 /// Widest gap of neighbouring buildings, m; from [`FAR_AWAY`] on a gap is meant to be out of reach.
@@ -21,7 +21,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     look_for_crossed_floors(facts.scene, found);
     let scene = facts.scene;
     let contacts = ("contact", scene.contacts.as_slice());
-    if !found.has("left.initial_displacement") && !found.has("right.initial_displacement") {
+    if !scene.buildings.iter().any(|building| found.has(&format!("{}.initial_displacement", building.path))) {
         found.group(contacts, "gap", |pair| overlap(facts, pair));
     }
     let ground_is_odd = found.has("ground");
@@ -54,8 +54,7 @@ fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     // Levels tell why `[facing]` has found none.
     let is_by_levels = scene.facing.is_some();
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
-    let is_linked =
-        scene.links.iter().any(|link| link.joins_buildings() || scene.buildings.iter().any(Building::is_absent));
+    let is_linked = scene.links.iter().any(|link| link.joins_buildings() || scene.buildings.len() == 1);
     let is_pushed = scene.floor_forces || scene.restoring_corrections;
     if scene.contacts.is_empty() && !is_pushed && !swings_freely && !is_by_levels && !is_linked {
         let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
@@ -89,7 +88,7 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
     let others = pairs.iter().enumerate().filter(|(_, other)| is_crossed(&pairs[index], other));
     let others: Vec<String> = others.take(3).map(|(other, _)| format!("contact[{}]", other + 1)).collect();
     let text = format!(
-        "above the floors of {} on one id and below them on the other, where floors cannot be; are left_floor and \
+        "above the floors of {} on one side and below them on the other, where floors cannot be; are left_floor and \
          right_floor right?",
         others.join(", ")
     );
@@ -100,7 +99,7 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
 fn has_odd_building(scene: &Scene, found: &Found) -> bool {
     let is_odd =
         |name: &str| ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{name}.{key}")));
-    scene.buildings.iter().any(|building| is_odd(&building.name))
+    scene.buildings.iter().any(|building| is_odd(&building.path))
 }
 
 /// Floors that are deep in each other at the start.

@@ -21,7 +21,7 @@ const ISOLATION_STIFFNESS: f64 = 0.125;
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for id in facts.scene.ids() {
         let building = facts.building(id);
-        let name = &building.name;
+        let name = &building.path;
         let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{name}.{key}")));
         match &building.p_delta {
             Some(p_delta) => {
@@ -70,7 +70,7 @@ fn look_at_neglect(facts: &Facts<'_>, id: BuildingId, found: &mut Found) {
         short(*theta),
         likewise(&storeys)
     );
-    found.add(format!("{}.p_delta", building.name), "false".to_owned(), text);
+    found.add(format!("{}.p_delta", building.path), "false".to_owned(), text);
 }
 
 fn look_at_coefficients(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mut Found) {
@@ -84,7 +84,7 @@ fn look_at_coefficients(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, fou
         short(*theta),
         likewise(&storeys)
     );
-    found.add(format!("{}.p_delta", building.name), p_delta.written(), text);
+    found.add(format!("{}.p_delta", building.path), p_delta.written(), text);
 }
 
 /// A storey whose stiffness is negative once it yields.
@@ -123,13 +123,13 @@ fn look_at_falls(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mu
         short(*critical_drift),
         likewise(&storeys)
     );
-    found.add(format!("{}.p_delta", building.name), p_delta.written(), text);
+    found.add(format!("{}.p_delta", building.path), p_delta.written(), text);
 }
 
 fn look_at_start(facts: &Facts<'_>, id: BuildingId, falling: &Falling, found: &mut Found) {
     let building = facts.building(id);
     let drift = building.initial_drift(falling.storey);
-    let path = format!("{}.initial_displacement", building.name);
+    let path = format!("{}.initial_displacement", building.path);
     if drift.abs() > falling.critical_drift && !found.has(&path) {
         let text = format!(
             "storey {} starts at a drift of {} m, and beyond {} m it resists no push any more",
@@ -156,7 +156,7 @@ fn look_at_loads(facts: &Facts<'_>, id: BuildingId, p_delta: &PDelta, found: &mu
             false => "no floor weighs anything, which p_delta = false would say as well".to_owned(),
         }
     };
-    found.entries(&format!("{}.gravity_load", building.name), loads, &odd, loads.len(), text);
+    found.entries(&format!("{}.gravity_load", building.path), loads, &odd, loads.len(), text);
 }
 
 /// What else than weights in the units of the scene may have been given.

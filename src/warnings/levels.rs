@@ -11,10 +11,10 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         order::look_at_heights(building, found);
         look_at_unit_of_heights(building, found);
     }
-    if facts.scene.buildings.iter().any(|building| found.has(&format!("{}.height", building.name))) {
+    if facts.scene.buildings.iter().any(|building| found.has(&format!("{}.height", building.path))) {
         return;
     }
-    if let Some(tolerance) = facts.scene.facing {
+    if let Some(tolerance) = facts.scene.facing.map(|facing| facing.level_tolerance) {
         look_at_tolerance(facts.scene, tolerance, found);
         for [left, right] in facts.scene.neighbours() {
             match facts.scene.contacts.iter().any(|pair| pair.is_with(left) && pair.is_with(right)) {
@@ -23,14 +23,14 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
             }
         }
     }
-    let tolerance = facts.scene.facing.unwrap_or(LEVEL_TOLERANCE);
+    let tolerance = facts.scene.facing.map_or(LEVEL_TOLERANCE, |facing| facing.level_tolerance);
     for (index, pair) in facts.scene.contacts.iter().enumerate() {
         look_at_pair(facts.scene, index, pair, tolerance, found);
     }
 }
 
-fn look_at_unit_of_heights(Building { name, heights, .. }: &Building, found: &mut Found) {
-    let known = found.has(&format!("{name}.height"));
+fn look_at_unit_of_heights(Building { path, heights, .. }: &Building, found: &mut Found) {
+    let known = found.has(&format!("{path}.height"));
     let Some(heights) = heights.as_ref().filter(|_| !known) else { return };
     if let Some((index, height)) = (1..).zip(&heights.storeys).find(|(_, height)| **height > HIGHEST_STOREY) {
         let meant = if *height >= 1000.0 { ("mm", height / 1e3) } else { ("cm", height / 1e2) };
@@ -39,7 +39,7 @@ fn look_at_unit_of_heights(Building { name, heights, .. }: &Building, found: &mu
             meant.0,
             six_decimals(meant.1)
         );
-        found.number(format!("{name}.height[{index}]"), *height, text);
+        found.number(format!("{path}.height[{index}]"), *height, text);
     }
 }
 
@@ -64,7 +64,7 @@ fn look_for_what_faces_nothing(scene: &Scene, pair: [BuildingId; 2], found: &mut
     let roof = |heights: &Heights| heights.level(heights.storeys.len());
     let is_left = left.base_level.abs() > right.base_level.abs();
     let (own, other) = if is_left { (left, right) } else { (right, left) };
-    let name = &buildings[usize::from(!is_left)].name;
+    let building = buildings[usize::from(!is_left)];
     let meets = |base: f64| base < roof(other) && base + roof(own) - own.base_level > other.base_level;
     let base = own.base_level;
     let in_unit = |unit: &str, factor: f64| {
@@ -80,20 +80,21 @@ fn look_for_what_faces_nothing(scene: &Scene, pair: [BuildingId; 2], found: &mut
         _ => "are both levels from the same zero?".to_owned(),
     };
     let text = format!(
-        "the {name} building goes from {} m to {} m and the other one from {} m to {} m: no floor faces anything, so there \
+        "{} goes from {} m to {} m and the other one from {} m to {} m: no floor faces anything, so there \
          is no contact and they pass through each other; {meant}",
+        building.called(),
         six_decimals(own.base_level),
         six_decimals(roof(own)),
         six_decimals(other.base_level),
         six_decimals(roof(other))
     );
-    found.number(format!("{name}.base_level"), own.base_level, text);
+    found.number(format!("{}.base_level", building.path), own.base_level, text);
 }
 
 /// Floors that `[facing]` leaves out, since the other building does not go down to them.
 fn look_for_buried_floors(scene: &Scene, [left, right]: [BuildingId; 2], found: &mut Found) {
     for (id, beside) in [(left, right), (right, left)] {
-        let [Building { name, heights: Some(own), .. }, Building { name: name_beside, heights: Some(other), .. }] =
+        let [Building { name, heights: Some(own), .. }, Building { path: path_beside, heights: Some(other), .. }] =
             [id, beside].map(|id| scene.building(id))
         else {
             return;
@@ -110,7 +111,7 @@ fn look_for_buried_floors(scene: &Scene, [left, right]: [BuildingId; 2], found: 
                 six_decimals(own.level(floor)),
                 six_decimals(base)
             );
-            found.number(format!("{name_beside}.base_level"), base, text);
+            found.number(format!("{path_beside}.base_level"), base, text);
         }
     }
 }

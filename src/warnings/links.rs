@@ -17,7 +17,7 @@ const ALWAYS_EXCEEDED: f64 = 1e-3;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     // A building with other units makes its links look odd.
-    if facts.scene.buildings.iter().any(|building| found.has(&building.name)) {
+    if facts.scene.buildings.iter().any(|building| found.has(&building.path)) {
         return;
     }
     let links = ("link", facts.scene.links.as_slice());

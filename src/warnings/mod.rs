@@ -83,9 +83,9 @@ pub fn of_file(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     let mut warnings = of(scene, record);
     if scene.facing.is_some() {
         for warning in &mut warnings {
-            let key = warning.path.strip_prefix("contact[1].").filter(|key| !key.ends_with("_position"));
-            if let Some(key) = key.map(|key| format!("facing.{key}")) {
-                warning.path = key;
+            let path = scene.path_in_file(&warning.path);
+            if path != warning.path && !path.ends_with("_position") {
+                warning.path = path;
                 warning.text.truncate(warning.text.find(found::LIKEWISE).unwrap_or(warning.text.len()));
             }
         }

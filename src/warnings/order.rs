@@ -23,7 +23,7 @@ pub(super) const HIGHEST_STOREY: f64 = 30.0;
 /// Masses, stiffnesses and yield forces that grow upwards.
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for building in &facts.scene.buildings {
-        let name = &building.name;
+        let name = &building.path;
         let mut look_at = |key: &str, values: &[f64], least: f64, others: &str| {
             let path = format!("{name}.{key}");
             if !found.has(&path) && grow_upwards(values, least) {
@@ -83,7 +83,7 @@ pub(super) fn look_at_heights(building: &Building, found: &mut Found) {
         crate::scene::excerpt(&crate::scene::numbers(&meant)).trim_matches(['[', ']'])
     );
     let text = if upwards { text } else { text.replace("than the last", "than the next") };
-    found.numbers(format!("{}.height", building.name), storeys, text);
+    found.numbers(format!("{}.height", building.path), storeys, text);
 }
 
 /// Whether numbers that should be heights of storeys grow like the levels of floors.

@@ -19,17 +19,17 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for id in facts.scene.ids() {
         let building = facts.building(id);
         // A building with other units makes its soil look odd.
-        let (Some(foundation), false) = (&building.foundation, found.has(&building.name)) else { continue };
+        let (Some(foundation), false) = (&building.foundation, found.has(&building.path)) else { continue };
         if let Some(first) = &facts.first[id.index()] {
             look_at_period(
-                (facts.scene.units, &building.name),
+                (facts.scene.units, &building.path),
                 foundation,
                 springs(building, first, foundation),
                 found,
             );
         }
         look_at_dashpots(building, foundation, found);
-        look_at_inertia(&building.name, foundation, found);
+        look_at_inertia(&building.path, foundation, found);
     }
 }
 
@@ -80,7 +80,7 @@ fn look_at_period((units, name): (Units, &str), foundation: &Foundation, shares:
 
 /// Judged by the building as a rigid body on the soil.
 fn look_at_dashpots(building: &Building, foundation: &Foundation, found: &mut Found) {
-    let name = &building.name;
+    let name = &building.path;
     let turned: f64 = building.mass.iter().zip(levels(building)).map(|(m, level)| m * level * level).sum();
     let mass = foundation.mass + building.mass.iter().sum::<f64>();
     let of = [("sway", foundation.sway, mass), ("rocking", foundation.rocking, foundation.inertia + turned)];

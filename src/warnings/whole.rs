@@ -21,7 +21,7 @@ const FAST: f64 = 0.07;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     let is_sound = |pace: &Pace| matches!(pace, Pace::Usual | Pace::Wall);
-    let is_odd = |building: &Building| found.has(&building.name);
+    let is_odd = |building: &Building| found.has(&building.path);
     if !facts.pace.iter().all(is_sound) || facts.scene.buildings.iter().any(is_odd) {
         return;
     }
@@ -42,7 +42,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         ),
         _ => return,
     };
-    found.quantities(format!("{}.mass", facts.building(first).name), &facts.building(first).mass, text);
+    found.quantities(format!("{}.mass", facts.building(first).path), &facts.building(first).mass, text);
 }
 
 /// Frames in laboratories may be as light, but seldom are as slow and as far apart, and have fewer floors.

@@ -21,7 +21,7 @@ const ODD: f64 = 6.0;
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for id in facts.scene.ids() {
         let building = facts.building(id);
-        let (name, storeys) = (&building.name, Storey::all(building));
+        let (name, storeys) = (&building.path, Storey::all(building));
         let is_sound = !found.has(&format!("{name}.mass")) && facts.pace(id) != Pace::Slow;
         if storeys.is_empty() || !is_sound {
             continue;
@@ -59,7 +59,7 @@ impl Storey {
 
 /// Forces that make a storey one that never yields, or one that always does.
 fn look_at_forces(facts: &Facts<'_>, id: BuildingId, storeys: &[Storey], found: &mut Found) {
-    let Building { name, yielding: Some(yielding), .. } = facts.building(id) else { return };
+    let Building { path: name, yielding: Some(yielding), .. } = facts.building(id) else { return };
     let shaken = shaken(facts.peak);
     let is_large = |storey: &&Storey| storey.share > NEVER_REACHED * shaken;
     let is_small = |storey: &&Storey| storey.share < if storey.index == 0 { LEAST_ISOLATOR } else { LEAST_STOREY };
@@ -102,7 +102,7 @@ fn look_at_neighbours(name: &str, storeys: &[Storey], found: &mut Found) {
 /// A ratio is of the stiffness before yield: isolators yield early, and are far softer from then on.
 fn look_at_isolators(facts: &Facts<'_>, id: BuildingId, storeys: &[Storey], found: &mut Found) {
     let building = facts.building(id);
-    let name = &building.name;
+    let name = &building.path;
     let Some(first) = storeys.first().filter(|first| first.index == 0 && first.share < MOST_ISOLATOR) else { return };
     let is_carried = |storey: &Storey| storey.share > MUCH_STRONGER * first.share;
     let is_known = ["yield_force", "damping"].iter().any(|key| found.has(&format!("{name}.{key}")));
