@@ -58,6 +58,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
         check.link(&format!("link[{}]", i + 1), link, scene);
     }
     check.springs(scene);
+    check.work(scene);
     check.count("contact", "contacts", scene.contacts.len(), scene);
     check.count("link", "links", scene.links.len(), scene);
     check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);
@@ -225,6 +226,28 @@ impl Checker {
         for &key in law.kind.info().keys {
             let key = law_key::number(key);
             self.number(format_args!("{path}.{}", key.name), key.get(law), key.rule);
+        }
+    }
+
+    /// Floors in all, whose modes take minutes to find.
+    fn work(&mut self, scene: &Scene) {
+        let joined = |left: BuildingId| {
+            scene.links.iter().any(|link| link.joins_buildings() && link.left.is_some_and(|(id, _)| id == left))
+        };
+        let (mut cubes, mut floors) = (0, 0_usize);
+        for (id, building) in scene.ids().zip(&scene.buildings) {
+            floors += building.mass.len().min(rule::MOST_FLOORS);
+            if !joined(id) {
+                cubes += floors.pow(3);
+                floors = 0;
+            }
+        }
+        if cubes + floors.pow(3) > rule::MOST_CUBES_OF_FLOORS {
+            let floors: usize = scene.buildings.iter().map(|building| building.mass.len()).sum();
+            let expected = format!(
+                "fewer floors than {floors} in all, or fewer of them joined by links, which would take minutes to prepare"
+            );
+            self.refuse("building", "", expected);
         }
     }
 

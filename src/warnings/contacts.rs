@@ -73,6 +73,9 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
     }
     let is_crossed = |one: &ContactPair, other: &ContactPair| {
         let (Some([left, right]), Some(others)) = (one.floors(), other.floors()) else { return false };
+        if one.left.building() != other.left.building() {
+            return false;
+        }
         let (left, right) = (left.cmp(&others[0]), right.cmp(&others[1]));
         left != Ordering::Equal && right != Ordering::Equal && left != right
     };

@@ -30,6 +30,7 @@
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
+//! | `row.rs` | names and neighbours in a row of buildings |
 //! | `links.rs` | devices that act as ties, springs that never slip or always do |
 //! | `soil.rs` | foundations: springs, dashpots and moments of inertia of no soil |
 //! | `order.rs` | lists with the top floor first, levels in place of heights |
@@ -47,6 +48,7 @@ mod ground;
 mod levels;
 mod links;
 mod order;
+mod row;
 mod soil;
 mod touch;
 mod whole;
@@ -73,6 +75,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     order::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
     links::look(&facts, &mut found);
+    row::look(&facts, &mut found);
     soil::look(&facts, &mut found);
     levels::look(&facts, &mut found);
     found.warnings

@@ -24,7 +24,7 @@ fn all_that_a_foundation_says() {
     let sway = Some(Soil { stiffness: 9e7, dashpot: 1.5e6 });
     let both = Foundation { mass: 3e4, inertia: 3e5, sway, rocking: Some(Soil { stiffness: 1.2e9, dashpot: 0.0 }) };
     assert_eq!(scene.buildings[0].foundation, Some(both.clone()));
-    assert_eq!(scene.buildings[1].foundation, None);
+    assert_eq!(scene.buildings.len(), 1);
     let sway_alone =
         Scene::from_toml(&building("", "mass = 3e4\nsway = { stiffness = 9e7, dashpot = 1.5e6 }")).unwrap();
     assert_eq!(sway_alone.buildings[0].foundation, Some(Foundation { inertia: 0.0, rocking: None, ..both.clone() }));

@@ -7,6 +7,7 @@ mod gravity;
 mod links;
 mod meant;
 mod meetings;
+mod rows;
 mod together;
 
 use crate::{SCENE, SHORT, edited, messages};
@@ -63,7 +64,7 @@ fn names_and_times() {
 
 #[test]
 fn keys() {
-    const KNOWN: &str = "a known key (name, description, units, stop_time, left, right, ground, inputs, contact, facing, link, outputs, solver)";
+    const KNOWN: &str = "a known key (name, description, units, stop_time, building, left, right, ground, inputs, contact, facing, link, outputs, solver)";
     let message = |found: &str, suggestion: &str| format!("{found}: expected {KNOWN}{suggestion}");
     let stop_time = edited("stop_time", "stoptime");
     assert_eq!(messages(&stop_time), [message("stoptime = 20.0", "; did you mean stop_time?")]);

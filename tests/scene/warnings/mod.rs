@@ -5,6 +5,7 @@ mod gravity;
 mod levels;
 mod links;
 mod order;
+mod rows;
 mod soil;
 mod yielding;
 
