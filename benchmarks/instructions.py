@@ -102,9 +102,11 @@ class Case:
         self.guid = description.get("guid")
         variables = {v.get("name"): v for v in description.iter("ScalarVariable")}
         references = {name: v.get("valueReference") for name, v in variables.items()}
-        floors = [[name for name in references if name.startswith(f"{side}.displacement[")] for side in ("left", "right")]
-        # A scene may have one building beside walls.
-        tops = [max(names, key=number) for names in floors if names]
+        floors = {}
+        for name in references:
+            if of_floor := re.fullmatch(r"(\w+)\.displacement\[\d+\]", name):
+                floors.setdefault(of_floor[1], []).append(name)
+        tops = [max(names, key=number) for names in floors.values()]
         forces = [name for name in references if re.fullmatch(r"contact\[\d+\]\.force", name)]
         reals = [name for name, v in variables.items() if v.get("causality") == "output" and v.find("Real") is not None]
         peaks = [name for name in reals if "peak" in name]
@@ -132,7 +134,7 @@ class Case:
 
 
 def number(name):
-    return int(re.search(r"\d+", name)[0])
+    return int(re.search(r"\[(\d+)\]", name)[1])
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 use crate::archive::Entry;
 use pounding::FmiVersion;
 use pounding::description::Package;
-use pounding::scene::{BuildingId, ContactPair};
+use pounding::scene::{Building, ContactPair, Scene};
 use pounding::variables::{Causality, Row, Table, Type};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -16,7 +16,7 @@ const STYLE: &str = "body{font:15px/1.45 sans-serif;max-width:60em;margin:2em au
     th{background:#f2f2f2}pre{background:#f6f6f6;padding:.8em;overflow-x:auto}";
 
 const USE: &str = "<ul>\n\
-    <li>SI units everywhere; <em>x</em> points from the left building to the right one. Displacements and velocities are \
+    <li>SI units everywhere; <em>x</em> points from left to right, as the buildings stand. Displacements and velocities are \
     relative to the ground, accelerations absolute.</li>\n\
     <li>Floors are counted from 1 at the bottom; storey <em>i</em> is below floor <em>i</em>.</li>\n\
     <li>Any communication step will do: impacts are found and followed inside. EVENTS</li>\n\
@@ -50,11 +50,10 @@ fn page(package: &Package, version: FmiVersion) -> String {
     let name = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
-         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Two adjacent buildings of {} and {} \
-         storeys under a ground motion, with {} between facing floors.</p>\n<h2>Use</h2>\n{}",
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>{} under a ground motion, with \
+         {} between facing floors.</p>\n<h2>Use</h2>\n{}",
         escape(&scene.description),
-        scene.building(BuildingId::LEFT).mass.len(),
-        scene.building(BuildingId::RIGHT).mass.len(),
+        buildings(scene),
         match scene.contacts.len() {
             1 => "1 contact".to_owned(),
             n => format!("{n} contacts"),
@@ -69,6 +68,25 @@ fn page(package: &Package, version: FmiVersion) -> String {
         escape(&package.scene_text)
     );
     html
+}
+
+/// How many buildings there are, and how tall.
+fn buildings(scene: &Scene) -> String {
+    let tall = |building: &Building| format!("{} of {}", escape(&building.name), storeys(building.mass.len()));
+    match scene.buildings.as_slice() {
+        [one] => format!("A building of {}", storeys(one.mass.len())),
+        [left, right] => {
+            format!("Two adjacent buildings of {} and {}", left.mass.len(), storeys(right.mass.len()))
+        }
+        row => {
+            let all: Vec<String> = row.iter().map(tall).collect();
+            format!("A row of {} buildings, {},", row.len(), all.join(", "))
+        }
+    }
+}
+
+fn storeys(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "storey" } else { "storeys" })
 }
 
 /// The laws of contact that the scene uses.

@@ -66,6 +66,8 @@ impl Body {
             };
             let first_lane = floors.lane(joined[0], 0);
             let lanes = first_lane..first_lane + count;
+            // In a row every body begins with a block of lanes, so that its sums do not depend on what stands before it.
+            first = if buildings.len() > 2 { first_lane } else { first };
             let range = first..first + count;
             bodies.push(Body { modes, range, lanes, buildings: parts, is_linked });
             first += count;

@@ -243,7 +243,7 @@ impl Structure {
 
     /// Number of all modes.
     pub fn modes_of_all(&self) -> usize {
-        self.bodies.iter().map(|body| body.modes.omega.len()).sum()
+        self.bodies.last().map_or(0, |body| body.range.end)
     }
 
     /// Whether no mode is coupled to another by damping.

@@ -10,7 +10,7 @@ use pounding::engine::{
     SavedState, State, YieldingOf,
 };
 use pounding::record::Record;
-use pounding::scene::Scene;
+use pounding::scene::{Building, Scene};
 use problems::two_masses::{Mass, TwoMasses};
 
 /// A scene from TOML text; panics with every problem.
@@ -47,7 +47,9 @@ pub struct Run {
     /// The storeys that can yield, counted from 0.
     pub yielding: Vec<(BuildingId, usize)>,
     /// Heights of the storeys that lean with their foundation, m; 0 of others.
-    pub leaning: [Vec<f64>; 2],
+    pub leaning: Vec<Vec<f64>>,
+    /// The buildings, from left to right.
+    pub ids: Vec<BuildingId>,
 }
 
 /// All that is shown of a storey that can yield.
@@ -78,12 +80,20 @@ impl Run {
         let state = model.start(start);
         let of = |side| (0..model.floors(side)).map(move |storey| (side, storey));
         let can_yield = |&(side, storey): &(BuildingId, usize)| scene.building(side).yielding_storey(storey).is_some();
-        let yielding = of(BuildingId::LEFT).chain(of(BuildingId::RIGHT)).filter(can_yield).collect();
-        let leaning = [&scene.buildings[0], &scene.buildings[1]].map(|building| {
+        let ids: Vec<BuildingId> = scene.ids().collect();
+        let yielding = ids.iter().flat_map(|id| of(*id)).filter(can_yield).collect();
+        let leaning = |building: &Building| {
             let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
             building.heights.as_ref().filter(|_| rocks).map(|heights| heights.storeys.clone()).unwrap_or_default()
-        });
-        Run { model, state, point: Point::default(), episodes: Vec::new(), yielding, leaning }
+        };
+        let leaning = scene.buildings.iter().map(leaning).collect();
+        Run { model, state, point: Point::default(), episodes: Vec::new(), yielding, leaning, ids }
+    }
+
+    /// Begins again at time 0, and forgets nothing of what was reported.
+    pub fn restart(&mut self) -> &mut Run {
+        self.state = self.model.start(0.0);
+        self.to(0.0)
     }
 
     /// Advances to a time and reads nothing.
@@ -187,7 +197,7 @@ impl Run {
     /// The same with these contacts.
     pub fn bits_with(&self, contacts: &[ContactPoint]) -> Vec<u64> {
         let mut values = Vec::new();
-        for side in [BuildingId::LEFT, BuildingId::RIGHT] {
+        for &side in &self.ids {
             for floor in 0..self.model.floors(side) {
                 values.push(self.displacement(side, floor));
                 values.push(self.velocity(side, floor));

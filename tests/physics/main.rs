@@ -34,7 +34,7 @@ mod random_scenes;
 mod random_soil;
 mod rates;
 mod read_peaks;
-mod row_of_buildings;
+mod row;
 mod rows;
 mod same_contacts;
 mod shared_floors;

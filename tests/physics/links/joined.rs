@@ -59,7 +59,7 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
 }
 
 /// All floors of a scene without contacts as one building by matrices, links and all.
-fn as_one_building(scene: &Scene) -> Scene {
+pub(crate) fn as_one_building(scene: &Scene) -> Scene {
     let (left, right) = (&scene.buildings[0], &scene.buildings[1]);
     let (lefts, n) = (left.mass.len(), left.mass.len() + right.mass.len());
     let (mut k, mut c) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));

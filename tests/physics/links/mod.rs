@@ -6,7 +6,7 @@ mod devices;
 mod extremes;
 mod instants;
 mod invariants;
-mod joined;
+pub(crate) mod joined;
 mod leaning;
 mod slips;
 mod states;
