@@ -265,7 +265,8 @@ fn every_scene_key_is_in_the_reference() {
         let section = path.split('[').next().unwrap().trim_end_matches('.').replace("right", "left");
         for key in between(&problem.expected, " (", ")").next().unwrap().split(", ") {
             let is_table =
-                ["left", "right", "ground", "inputs", "contact", "facing", "link", "outputs", "solver"].contains(&key);
+                ["building", "left", "right", "ground", "inputs", "contact", "facing", "link", "outputs", "solver"]
+                    .contains(&key);
             let name = format!("{section}.{key}");
             let known = is_table && section.is_empty()
                 || cells.contains(name.trim_start_matches('.'))
