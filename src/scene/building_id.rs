@@ -7,6 +7,8 @@ use super::data::{Building, Scene};
 pub struct BuildingId(u8);
 
 impl BuildingId {
+    /// So many can be told from each other.
+    pub const MOST: usize = u8::MAX as usize + 1;
     /// That of `[left]`.
     pub const LEFT: BuildingId = BuildingId(0);
     /// That of `[right]`.
@@ -14,7 +16,7 @@ impl BuildingId {
 
     /// That of a building by its place among all, counted from 0.
     pub const fn new(index: usize) -> BuildingId {
-        debug_assert!(index <= u8::MAX as usize, "no scene has that many buildings");
+        debug_assert!(index < BuildingId::MOST, "no scene has that many buildings");
         BuildingId(index as u8)
     }
 

@@ -27,6 +27,8 @@ pub struct Floors {
     /// N/m, of the storey below each floor of a shear building.
     storey: Vec<f64>,
     blocks: Vec<Neighbours>,
+    /// Lane of the lowest floor of each building: by any id, so that what is read at each step needs no test of it.
+    first: Box<[usize; BuildingId::MOST]>,
     buildings: Vec<Standing>,
     /// The displacements or velocities of floors at rest: zeros.
     pub rest: Vec<f64>,
@@ -112,7 +114,8 @@ impl Floors {
             inverse_mass: zeros.clone(),
             storey: zeros.clone(),
             blocks: vec![Neighbours::default(); zeros.len() / LANES],
-            buildings: first.into_iter().zip(places).map(standing).collect(),
+            first: Box::new(std::array::from_fn(|i| first.get(i).copied().unwrap_or(lanes))),
+            buildings: first.iter().copied().zip(places).map(standing).collect(),
             rest: zeros,
         };
         for (id, (building, modes)) in BuildingId::row_of(buildings.len()).zip(buildings.iter().zip(modes)) {
@@ -159,7 +162,7 @@ impl Floors {
 
     /// Lane of a floor, counted from 0.
     pub fn lane(&self, id: BuildingId, floor: usize) -> usize {
-        self.buildings[id.index()].first + floor
+        self.first[id.index()] + floor
     }
 
     /// Lanes of the floors of one building.
@@ -181,32 +184,38 @@ impl Floors {
     }
 
     /// What is taken from the motion of a floor for the drift of the storey below it, from a motion of all floors.
-    pub fn below(&self, id: BuildingId, storey: usize, motion: &[f64]) -> f64 {
+    fn below(&self, id: BuildingId, storey: usize, motion: &[f64]) -> f64 {
         let taken = |(place, weight): (Place, f64)| Some(-weight * motion[self.lane_of(id, place)?]);
         self.places(id).drift(storey).skip(1).filter_map(taken).sum()
     }
 
     /// Writes the drifts of the storeys of a building in a motion of all floors.
     pub fn set_drifts(&self, id: BuildingId, motion: &[f64], drifts: &mut [f64]) {
+        self.set_own_drifts(id, motion, &mut drifts[self.lanes_of(id)]);
+    }
+
+    /// The same into a vector of its own floors.
+    pub fn set_own_drifts(&self, id: BuildingId, motion: &[f64], drifts: &mut [f64]) {
         self.combine(id, (motion, |motion, below| motion - below, |storey| self.below(id, storey, motion)), drifts);
     }
 
     /// Writes bounds on them, from bounds on the magnitudes of all motions.
     pub fn bound_drifts(&self, id: BuildingId, sizes: &[f64], bounds: &mut [f64]) {
+        let bounds = &mut bounds[self.lanes_of(id)];
         let size = |(place, weight): (Place, f64)| Some(weight.abs() * sizes[self.lane_of(id, place)?]);
         let below = |storey: usize| self.places(id).drift(storey).skip(1).filter_map(size).sum();
         self.combine(id, (sizes, |size, below| size + below, below), bounds);
     }
 
-    /// Combines each floor with the one below it, or on soil with what is `below` it.
+    /// Combines each floor of a building with the one below it, or on soil with what is `below` it.
+    #[inline(always)]
     fn combine(
         &self,
         id: BuildingId,
         (of, both, below): (&[f64], impl Fn(f64, f64) -> f64, impl Fn(usize) -> f64),
         out: &mut [f64],
     ) {
-        let lanes = self.lanes_of(id);
-        let (of, out) = (&of[lanes.clone()], &mut out[lanes]);
+        let of = &of[self.lanes_of(id)];
         if !self.places(id).are_of_floors() {
             for (storey, (out, of)) in out.iter_mut().zip(of).enumerate() {
                 *out = both(*of, below(storey));

@@ -73,6 +73,7 @@ impl PeakFinder<'_> {
     }
 
     /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
+    #[inline(always)]
     pub(super) fn bound_shear(
         &self,
         id: BuildingId,

@@ -46,13 +46,14 @@ impl PeakFinder<'_> {
             }
         }
         let FloorState { u, v, shear, .. } = &mut *out;
+        let stays_elastic = self.system.elements.is_empty();
         for (id, shear) in structure.ids().zip(shear) {
             *shear = self.shear_of(id, u, v);
-        }
-        if !self.system.elements.is_empty() {
-            for id in structure.ids() {
-                out.shear[id.index()] += rest.watched[self.watched.rows.place(PeakOf::BaseShear(id))];
+            if !stays_elastic {
+                *shear += rest.watched[self.watched.rows.place(PeakOf::BaseShear(id))];
             }
+        }
+        if !stays_elastic {
             out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);
         }
         for id in structure.ids() {
@@ -119,6 +120,7 @@ impl PeakFinder<'_> {
     }
 
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
+    #[inline(always)]
     pub(in crate::engine) fn shear_strays(&self, id: BuildingId, h: f64, largest: &[f64]) -> f64 {
         let [on_u, on_v] = self.watched.resistance.shear(id);
         let largest = &largest[self.system.structure.floors.lanes_with_foundation(id)];
@@ -127,6 +129,7 @@ impl PeakFinder<'_> {
     }
 
     /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
+    #[inline(always)]
     fn shear_of(&self, id: BuildingId, u: &[f64], v: &[f64]) -> f64 {
         let [on_u, on_v] = self.watched.resistance.shear(id);
         let lanes = self.system.structure.floors.lanes_with_foundation(id);

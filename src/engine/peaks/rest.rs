@@ -20,11 +20,9 @@ impl PeakFinder<'_> {
         for id in system.structure.ids() {
             watched[place(PeakOf::BaseShear(id))] = system.shear_at_rest(elements, id, floors);
             let [of_floors, of_storeys] = [PeakOf::Displacement(id, 0), PeakOf::Drift(id, 0)].map(place);
-            for (floor, lane) in system.structure.floors.lanes_of(id).enumerate() {
-                watched[of_floors + floor] = floors[lane];
-                let below = system.structure.floors.below(id, floor, floors);
-                watched[of_storeys + floor] = floors[lane] - below;
-            }
+            let own = system.structure.floors.of_building(id, floors);
+            watched[of_floors..][..own.len()].copy_from_slice(own);
+            system.structure.floors.set_own_drifts(id, floors, &mut watched[of_storeys..][..own.len()]);
         }
         for of in self.system.corrections.iter() {
             let (Some(stiffness), storey) = (of.stiffness, (of.building, of.number)) else { continue };
