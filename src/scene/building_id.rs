@@ -1,6 +1,4 @@
-//! Which building of a scene is meant, and which there are.
-
-use super::data::{Building, Scene};
+//! Which building of a scene is meant.
 
 /// A building of a scene: its place from left to right. What it is called, the scene knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,27 +26,5 @@ impl BuildingId {
     /// Its place among all, counted from 0.
     pub const fn index(self) -> usize {
         self.0 as usize
-    }
-}
-
-impl Scene {
-    /// Which buildings there are, from left to right.
-    pub fn ids(&self) -> impl DoubleEndedIterator<Item = BuildingId> + Clone + use<> {
-        BuildingId::row_of(self.buildings.len())
-    }
-
-    /// Each building with the next one, from left to right.
-    pub fn neighbours(&self) -> impl Iterator<Item = [BuildingId; 2]> + use<> {
-        self.ids().zip(self.ids().skip(1)).map(|(left, right)| [left, right])
-    }
-
-    /// One of the buildings.
-    pub fn building(&self, id: BuildingId) -> &Building {
-        &self.buildings[id.index()]
-    }
-
-    /// The same, to be changed.
-    pub fn building_mut(&mut self, id: BuildingId) -> &mut Building {
-        &mut self.buildings[id.index()]
     }
 }

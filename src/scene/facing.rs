@@ -2,7 +2,6 @@
 
 use super::building_id::BuildingId;
 use super::contact_pair::{ColumnShape, ContactPair, Face};
-use super::data::Scene;
 use super::levels::{Heights, ROUNDING};
 use super::side::Side;
 use crate::contact::ImpactLaw;
@@ -32,28 +31,6 @@ struct Faced {
     face: Face,
     /// m, the lower one of both levels.
     level: f64,
-}
-
-impl Scene {
-    /// Where in the file something stands that has a path in the scene. What is wrong with a contact that `[facing]` has made
-    /// is wrong with that; contacts of the file are counted without those.
-    pub fn path_in_file(&self, path: &str) -> String {
-        let in_contact = || {
-            let (number, rest) = path.strip_prefix("contact[")?.split_once(']')?;
-            Some((self.facing?, number.parse::<usize>().ok()?.checked_sub(1)?, rest))
-        };
-        match in_contact() {
-            None => path.to_owned(),
-            Some((facing, index, rest)) if index >= facing.contacts => {
-                format!("contact[{}]{rest}", index + 1 - facing.contacts)
-            }
-            Some((Facing { has_gaps: true, .. }, index, ".gap")) => {
-                let left = self.contacts.get(index).and_then(|pair| pair.left.building());
-                format!("facing.gap[{}]", left.map_or(1, |left| left.index() + 1))
-            }
-            Some((.., rest)) => format!("facing{rest}"),
-        }
-    }
 }
 
 impl FacingKeys {

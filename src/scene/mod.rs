@@ -55,7 +55,7 @@
 //! foundation); did you mean mass?");
 //! ```
 //!
-//! Where things are: `data` is the scene, `building_id` says which building is meant, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
+//! Where things are: `data` is the scene, `building_id` says which building is meant, `row` which there are, `read_row` and `read_building` read them, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
 //! numbers are allowed, `check` which shapes and combinations, `read`, `read_contacts`, `read_links` and `read_foundation` go through the keys
 //! of the file, `levels` adds up heights, `p_delta` is gravity on storeys that lean, `foundation` the soil under a building, `facing` makes contacts of them,
 //! `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what is often written instead of
@@ -92,6 +92,7 @@ mod read_foundation;
 mod read_links;
 mod read_record;
 mod read_row;
+mod row;
 pub mod rule;
 mod side;
 mod syntax;
