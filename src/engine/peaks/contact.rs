@@ -7,7 +7,7 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::{Quantity, highest};
+use crate::engine::peaks::quantity::Quantity;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, FloorState, OpenQuantity, PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
@@ -15,6 +15,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
+use crate::numerics::roots::highest_turn;
 use crate::structure::{BuildingId, LANES, Motion};
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
@@ -306,13 +307,15 @@ impl PeakFinder<'_> {
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
                 let largest = larger(known, at_end.abs());
-                match of {
-                    _ if off.abs() > TRUSTED * largest => known,
-                    PeakOf::Acceleration(..) if off.abs() > EXACT * largest => {
-                        self.highest_acceleration(of, (&terms, end, order), known, part, work)
-                    }
-                    _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
-                }
+                let found = (off.abs() <= TRUSTED * largest).then(|| {
+                    highest_turn(&terms[..=order], end, known, |x, value| match of {
+                        PeakOf::Acceleration(id, floor) if off.abs() > EXACT * largest => {
+                            self.acceleration_within((id, floor), x, part, work)
+                        }
+                        _ => value,
+                    })
+                });
+                found.flatten().map_or(known, |(_, peak)| peak)
             }
             _ => self.highest_by_readings(&quantity, known, part, work),
         };

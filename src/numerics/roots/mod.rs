@@ -16,6 +16,6 @@ mod turning_point;
 
 pub(crate) use crossing::first_upcrossing;
 pub(crate) use hermite::{deviation, highest_of_cubic, may_turn_above, upper_bound};
-pub(crate) use maximum::{maximum_above, roughly};
+pub(crate) use maximum::{highest_turn, roughly};
 pub(crate) use readings::highest_by_readings;
 pub(crate) use turning_point::{Knot, turning_point};
