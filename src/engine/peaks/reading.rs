@@ -75,7 +75,6 @@ impl PeakFinder<'_> {
         let PeakRoom { within: floors, floors: FloorRoom { modal, .. }, pieces: [q, v, ..], .. } = &mut *work.peaks;
         let mut powers = Powers::default();
         step.set_powers(time, &mut powers);
-        powers.set_in_time(&step.taylor.series.time_map);
         step.taylor.series.evaluate(&powers, q, v);
         self.find_floors(base.coordinates, (&base.rest, Motion { q, v }), floors, modal);
         self.soften(base, q, floors);
