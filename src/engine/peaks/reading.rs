@@ -11,7 +11,7 @@ use crate::engine::step::Step;
 use crate::numerics::polynomial::larger;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::{BuildingId, LinearGround, Motion, MotionMut};
+use crate::structure::{LinearGround, Motion, MotionMut, Storey};
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ impl PeakFinder<'_> {
     /// contact forces there: in the series itself it has lost as many digits as its last terms have of the motion.
     pub(super) fn acceleration_within(
         &self,
-        (id, floor): (BuildingId, usize),
+        (id, floor): Storey,
         x: f64,
         part: &ContactStep,
         work: &mut PeakWork,
