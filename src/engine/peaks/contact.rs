@@ -229,7 +229,7 @@ impl PeakFinder<'_> {
         PeakRoom { floors, open, .. }: &mut PeakRoom,
     ) {
         let lanes = self.system.structure.floors.lanes_of(id);
-        let FloorRoom { start, end, pushes, upper, .. } = &*floors;
+        let FloorRoom { end, pushes: [_, pushed], upper, .. } = &*floors;
         let kinds = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
         for (kind, (of, upper)) in kinds.into_iter().zip(upper).enumerate() {
             let first = self.watched.rows.place(of(id, 0));
@@ -239,11 +239,9 @@ impl PeakFinder<'_> {
                     continue;
                 }
                 let lane = lanes.start + floor;
-                let of_motion = [start, end].map(|at| [at.u[lane], at.drift[lane], at.resisted[lane]][kind]);
-                let of_forces = pushes.each_ref().map(|pushed| if kind == 2 { pushed[lane] } else { 0.0 });
-                let ends = [of_motion[0] + of_forces[0], of_motion[1] + of_forces[1]];
-                // The peaks have been raised to the ends.
-                open.push(OpenQuantity { of: of(id, floor), place: first + floor, ends, upper });
+                let at_end = [end.u[lane], end.drift[lane], end.resisted[lane] + pushed[lane]][kind];
+                // The peaks have been raised to both ends.
+                open.push(OpenQuantity { of: of(id, floor), place: first + floor, at_end, upper });
             }
         }
         let (ends, upper) = self.bound_shear(id, h, floors);
@@ -262,7 +260,7 @@ impl PeakFinder<'_> {
         open: &mut Vec<OpenQuantity>,
     ) {
         let place = self.watched.rows.place(of);
-        let quantity = OpenQuantity { of, place, ends, upper };
+        let quantity = OpenQuantity { of, place, at_end: ends[1], upper };
         if quantity.may_exceed(peaks) {
             ends.into_iter().for_each(|end| peaks.raise(place, end));
             open.extend(quantity.may_exceed(peaks).then_some(quantity));
@@ -282,12 +280,12 @@ impl PeakFinder<'_> {
         work.peaks.open = open;
     }
 
-    /// The largest magnitude of a quantity within a part of a step if it exceeds its `known` peak, or a number up to that peak.
-    /// Turning points are searched for in the whole step, so that each has the same bits whatever part is asked for.
+    /// The largest magnitude at which a quantity turns within a part of a step, or its `known` peak if that is larger. Of a step
+    /// that is no power series the whole is searched, so that a turning point has the same bits whatever part is asked for.
     #[inline(never)]
     fn highest_in_contact(
         &self,
-        &OpenQuantity { of, place, ends: [_, at_end], .. }: &OpenQuantity,
+        &OpenQuantity { of, place, at_end, .. }: &OpenQuantity,
         known: f64,
         part: &ContactStep,
         work: &mut PeakWork,

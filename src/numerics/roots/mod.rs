@@ -1,4 +1,4 @@
-//! Certified roots and maxima of the polynomials that describe a step.
+//! Certified roots and maxima of the polynomials that describe a step, and maxima of what can only be read.
 //!
 //! On a piece of width w the cubic Hermite interpolant of a function from its end values and slopes is off by at most
 //! w^4/384 max|f''''|, and a cubic in Bernstein form lies between its four control points. A piece on which the
