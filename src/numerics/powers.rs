@@ -25,8 +25,6 @@ pub struct Powers {
     by_map: [Coefficients; 3],
     /// Whether the time map is curved.
     is_curved: bool,
-    /// Whether the weights of series in time have been set.
-    is_in_time: bool,
 }
 
 impl Default for Powers {
@@ -41,7 +39,6 @@ impl Default for Powers {
             stretch: 0.0,
             by_map: [[0.0; MAX_TERMS]; 3],
             is_curved: false,
-            is_in_time: false,
         }
     }
 }
@@ -61,7 +58,7 @@ impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
     pub fn set(&mut self, x: f64, highest: usize) {
         let highest = highest.min(MAX_TERMS - 1);
-        (self.stretch, self.is_curved, self.is_in_time) = (0.0, false, false);
+        (self.stretch, self.is_curved) = (0.0, false);
         // The power 0 is 1 once tables have been set.
         if (self.x, self.highest, self.value[0]) == (x, highest, 1.0) {
             return;
@@ -87,18 +84,11 @@ impl Powers {
         }
     }
 
-    /// Tables for x >= 0 and polynomials in the x of a time map.
+    /// Tables for x >= 0 and polynomials in the x of a time map, and the weights of series in time.
     pub fn set_by(&mut self, time_map: &TimeMap, x: f64, highest: usize) {
         self.set(x, highest);
         self.stretch = 2.0 * time_map.curvature * x;
         self.is_curved = time_map.is_curved();
-    }
-
-    /// Sets the weights of series in time, unless they are set.
-    pub fn set_in_time(&mut self, time_map: &TimeMap) {
-        if std::mem::replace(&mut self.is_in_time, true) {
-            return;
-        }
         if self.is_curved {
             return time_map.weights(self.x, self.highest, self.by_map.each_mut());
         }
@@ -107,7 +97,7 @@ impl Powers {
         factors.for_each(|((factor, value), reciprocal)| *factor = reciprocal * (self.x * value));
     }
 
-    /// Weights of the terms of a series in time for its value at x and for its rate there; after `set_in_time`.
+    /// Weights of the terms of a series in time for its value at x and for its rate there; after `set_by`.
     pub fn in_time(&self) -> (&Coefficients, &Coefficients) {
         let [value, rate, _] = &self.by_map;
         if self.is_curved { (value, rate) } else { (&self.value, &self.slope) }
@@ -119,7 +109,7 @@ impl Powers {
     }
 
     /// Weights of the terms of a series in time, with two powers less than the highest, for its integral from 0 to x;
-    /// after `set_in_time`.
+    /// after `set_by`.
     pub fn integral_in_time(&self) -> &Coefficients {
         &self.by_map[2]
     }

@@ -98,7 +98,7 @@ impl Body {
     }
 
     /// The building to which one of its floors belongs, and its number there.
-    pub fn floor(&self, row: usize) -> Option<(BuildingId, usize)> {
+    pub fn floor(&self, row: usize) -> Option<super::Storey> {
         let part = self.buildings.iter().find(|part| part.floors.contains(&row))?;
         Some((part.building, row - part.floors.start))
     }

@@ -76,3 +76,6 @@ pub use series::expand::{EXACT, LONGEST_ANGLE, PIECE_ANGLE, PairForces, flight_o
 pub use series::sums::{sum_sizes, sum_terms};
 pub use short_flight::{exact_order, fly_in_one_series};
 pub use soil::{SoilRows, period_ratio};
+
+/// A storey of a building, counted from 0; or the floor above it.
+pub type Storey = (BuildingId, usize);

@@ -88,7 +88,7 @@ impl Search<'_> {
             planned.reaches_limit = false;
             planned.event = event.map(|(_, event)| event);
         }
-        system.track(base, &work.series, &work.powers, &mut work.scalar, &mut planned.tracked);
+        system.track(base, &work.series, &work.powers, &mut planned.tracked);
     }
 
     /// The first event in a piece by its power series: (share of the piece, event).

@@ -9,7 +9,7 @@ use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
 use crate::scene::Place;
-use crate::structure::BuildingId;
+use crate::structure::{BuildingId, Storey};
 
 /// The solution at one time, as [`Model::observe`] shows it.
 #[derive(Clone, Copy, Debug)]
@@ -153,7 +153,7 @@ impl<'a> Instant<'a> {
         self.model.system.structure.floors.lane_of(id, Place::Foundation)
     }
 
-    fn storey_peak_rates(&self, rates: &PointRates, of: StoreyPeak, place: (BuildingId, usize)) -> Rates {
+    fn storey_peak_rates(&self, rates: &PointRates, of: StoreyPeak, place: Storey) -> Rates {
         if of == StoreyPeak::ColumnForce {
             return self.hardest_on(place).map_or([0.0; 2], |(p, _)| rates.contacts[p][ContactOutput::PeakForce]);
         }

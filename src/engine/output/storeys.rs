@@ -7,11 +7,11 @@ use crate::engine::output::point_rates::PointRates;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::scene::{Place, Places};
-use crate::structure::BuildingId;
+use crate::structure::{BuildingId, Storey};
 
 impl<'a> Instant<'a> {
     /// The value of a storey's quantity; 0 where the scene does not have what it is made of.
-    pub(super) fn storey_peak(&self, of: StoreyPeak, place: (BuildingId, usize)) -> f64 {
+    pub(super) fn storey_peak(&self, of: StoreyPeak, place: Storey) -> f64 {
         if of == StoreyPeak::Shear && self.is_corrected(place) {
             return self.peak(PeakOf::StoreyShear(place.0, place.1));
         }
@@ -27,27 +27,27 @@ impl<'a> Instant<'a> {
     }
 
     /// Whether a storey can be corrected: then its shear is watched by itself.
-    pub(super) fn is_corrected(&self, place: (BuildingId, usize)) -> bool {
+    pub(super) fn is_corrected(&self, place: Storey) -> bool {
         self.model.system.number_of_correction(place).is_some()
     }
 
     /// Drift of a storey, m.
-    pub(super) fn drift(&self, (id, storey): (BuildingId, usize)) -> f64 {
+    pub(super) fn drift(&self, (id, storey): Storey) -> f64 {
         self.sum_of(id, self.places(id).drift(storey))
     }
 
     /// Rates of a drift, m/s and m/s2.
-    pub(super) fn drift_rates(&self, rates: &PointRates, (id, storey): (BuildingId, usize)) -> Rates {
+    pub(super) fn drift_rates(&self, rates: &PointRates, (id, storey): Storey) -> Rates {
         self.rates_of_sum(rates, id, self.places(id).drift(storey))
     }
 
     /// Lean of a storey, m: its drift, and by how much its foundation has turned.
-    pub(super) fn lean(&self, (id, storey): (BuildingId, usize)) -> f64 {
+    pub(super) fn lean(&self, (id, storey): Storey) -> f64 {
         self.sum_of(id, self.places(id).lean(storey))
     }
 
     /// Rates of a lean, m/s and m/s2.
-    pub(super) fn lean_rates(&self, rates: &PointRates, (id, storey): (BuildingId, usize)) -> Rates {
+    pub(super) fn lean_rates(&self, rates: &PointRates, (id, storey): Storey) -> Rates {
         self.rates_of_sum(rates, id, self.places(id).lean(storey))
     }
 
@@ -70,7 +70,7 @@ impl<'a> Instant<'a> {
     }
 
     /// The contact that has pressed hardest on the columns of a storey, and its largest force.
-    pub(super) fn hardest_on(&self, storey: (BuildingId, usize)) -> Option<(usize, f64)> {
+    pub(super) fn hardest_on(&self, storey: Storey) -> Option<(usize, f64)> {
         let contacts = (0..).zip(&self.model.storeys.struck).filter(|(_, struck)| **struck == Some(storey));
         let forces = contacts.map(|(p, _)| (p, self.contact(p).peak_force));
         forces.max_by(|(_, one), (_, other)| one.total_cmp(other))

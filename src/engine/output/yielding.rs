@@ -9,19 +9,19 @@ use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::yielding::element::{Element, Present};
-use crate::structure::BuildingId;
+use crate::structure::Storey;
 
 impl<'a> Instant<'a> {
     /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, or
     /// as it can only be corrected, the shear is that of its drift, everything else 0.
-    pub(super) fn of_yielding(&self, of: YieldingOf, place: (BuildingId, usize)) -> f64 {
+    pub(super) fn of_yielding(&self, of: YieldingOf, place: Storey) -> f64 {
         let correction =
             if of == YieldingOf::Shear { self.correction_of(place, |line| line.at(self.state.time)) } else { 0.0 };
         self.of_storey(of, place) - correction
     }
 
     /// The same without correction.
-    fn of_storey(&self, of: YieldingOf, place: (BuildingId, usize)) -> f64 {
+    fn of_storey(&self, of: YieldingOf, place: Storey) -> f64 {
         let Some((storey, present)) = self.yielding_storey(place) else {
             return if of == YieldingOf::Shear { self.elastic_stiffness(place) * self.drift(place) } else { 0.0 };
         };
@@ -39,23 +39,23 @@ impl<'a> Instant<'a> {
     }
 
     /// The sense in which a storey yields, 1 or -1; 0 while it is elastic.
-    pub(super) fn yielding(&self, place: (BuildingId, usize)) -> f64 {
+    pub(super) fn yielding(&self, place: Storey) -> f64 {
         self.yielding_storey(place).map_or(0.0, |(_, (now, _))| flow(now))
     }
 
     /// A correction, or its rate, of a storey or floor; 0 where the scene has none.
-    fn correction_of(&self, place: (BuildingId, usize), part: impl Fn(&LinearInput) -> f64) -> f64 {
+    fn correction_of(&self, place: Storey, part: impl Fn(&LinearInput) -> f64) -> f64 {
         self.model.system.number_of_correction(place).map_or(0.0, |number| part(&self.state.inputs.corrections[number]))
     }
 
     /// Rates of a quantity of a storey.
-    pub(super) fn yielding_rates(&self, rates: &PointRates, of: YieldingOf, place: (BuildingId, usize)) -> Rates {
+    pub(super) fn yielding_rates(&self, rates: &PointRates, of: YieldingOf, place: Storey) -> Rates {
         let [first, second] = self.storey_rates(rates, of, place);
         let correction = if of == YieldingOf::Shear { self.correction_of(place, LinearInput::slope) } else { 0.0 };
         [first - correction, second]
     }
 
-    fn storey_rates(&self, rates: &PointRates, of: YieldingOf, place: (BuildingId, usize)) -> Rates {
+    fn storey_rates(&self, rates: &PointRates, of: YieldingOf, place: Storey) -> Rates {
         let Some((storey, (now, _))) = self.yielding_storey(place) else {
             let factor = if of == YieldingOf::Shear { self.elastic_stiffness(place) } else { 0.0 };
             return self.drift_rates(rates, place).map(|rate| factor * rate);
@@ -83,19 +83,19 @@ impl<'a> Instant<'a> {
     }
 
     /// The drift, m, of which a quantity of a storey that can yield and has not is the share that the peak drift has reached.
-    pub(super) fn unused_drift(&self, of: YieldingOf, place: (BuildingId, usize)) -> Option<f64> {
+    pub(super) fn unused_drift(&self, of: YieldingOf, place: Storey) -> Option<f64> {
         let (storey, (now, _)) = self.yielding_storey(place)?;
         drift_of_share(storey, of).filter(|_| now.furthest == 0.0)
     }
 
     /// The largest shear so far of a storey that has yielded, N.
-    pub(super) fn yielded_shear(&self, place: (BuildingId, usize)) -> Option<f64> {
+    pub(super) fn yielded_shear(&self, place: Storey) -> Option<f64> {
         let (storey, (now, _)) = self.yielding_storey(place)?;
         (now.furthest > 0.0).then(|| storey.peak_shear(now))
     }
 
     /// Its rates, N/s and N/s2.
-    pub(super) fn yielded_shear_rates(&self, rates: &PointRates, place: (BuildingId, usize)) -> Option<Rates> {
+    pub(super) fn yielded_shear_rates(&self, rates: &PointRates, place: Storey) -> Option<Rates> {
         let (storey, (now, _)) = self.yielding_storey(place).filter(|(_, (now, _))| now.furthest > 0.0)?;
         let sign = if is_furthest(now) { flow(now) } else { 0.0 };
         let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(self.point.coordinates, motion);
@@ -112,11 +112,11 @@ impl<'a> Instant<'a> {
     }
 
     /// Shear of a storey that cannot yield over its drift, N/m.
-    fn elastic_stiffness(&self, place: (BuildingId, usize)) -> f64 {
+    fn elastic_stiffness(&self, place: Storey) -> f64 {
         self.model.storeys.per_drift(StoreyPeak::Shear, place)
     }
 
-    fn yielding_storey(&self, place: (BuildingId, usize)) -> Option<(&'a Element, Present<'a>)> {
+    fn yielding_storey(&self, place: Storey) -> Option<(&'a Element, Present<'a>)> {
         let Instant { model: Model { system, .. }, point, .. } = *self;
         let i = system.number_of_storey(place)?;
         (i < point.elements.len()).then(|| system.element_at(i, &point.elements))

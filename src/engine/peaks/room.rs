@@ -85,8 +85,8 @@ pub struct OpenQuantity {
     pub of: PeakOf,
     /// Its index among the quantities of all blocks.
     pub place: usize,
-    /// Its values at both ends of the step.
-    pub ends: [f64; 2],
+    /// Its value at the end of the step.
+    pub at_end: f64,
     /// An upper bound on its magnitude.
     pub upper: f64,
 }
@@ -125,7 +125,8 @@ pub struct PeakRoom {
     pub creeps: Vec<f64>,
     /// A row over the motion and one over its rate.
     pub rows: [Vec<f64>; 2],
-    /// For each watched quantity what a master's pushes add at once at the start of a flight, and the rate of that.
+    /// For each watched quantity what a master's pushes add at once at the start of a flight, and the rate of that; 0 without a
+    /// master.
     pub direct: Vec<[f64; 2]>,
     pub floors: FloorRoom,
     /// The floors within a step that is a power series.

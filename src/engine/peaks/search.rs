@@ -5,11 +5,12 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::{Quantity, highest};
+use crate::engine::peaks::quantity::Quantity;
 use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
+use crate::numerics::roots::highest_turn;
 use crate::structure::{EXACT, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
@@ -199,10 +200,17 @@ impl PeakFinder<'_> {
             return;
         }
         self.fly_to(flight, time, [2, 3], work);
-        self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
-            suspect.values[k] = value;
-            suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
-        });
+        for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
+            let (body, block) = self.block_of(suspects[0].place);
+            let [q, v] = [2, 3].map(|place| &work.peaks.pieces[place][body.modes.clone()]);
+            let values = values_of(block, q, v);
+            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+                let [direct, rate] = work.peaks.direct[suspect.place];
+                let value = values[suspect.place % LANES] + flight.rest[suspect.place] + (direct + rate * time);
+                suspect.values[k] = value;
+                suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
+            }
+        }
     }
 
     /// Raises peaks to the values at both ends of a piece, and clears the quantities that do not turn above theirs in between: a
@@ -221,35 +229,6 @@ impl PeakFinder<'_> {
         }
         clear_chords(suspects, [0, 1], piece.to - piece.from);
         leave_out(suspects, 1, piece.halvings);
-    }
-
-    /// Calls a function with each quantity that is left and its value at a time of a flight, at which two of the vectors
-    /// `pieces` have the motion.
-    fn read_values(
-        &self,
-        flight: &Stretch,
-        time: f64,
-        [q, v]: [usize; 2],
-        suspects: &mut [Suspect],
-        work: &PeakWork,
-        mut then: impl FnMut(&mut Suspect, f64),
-    ) {
-        for suspects in suspects.chunk_by_mut(are_of_one_block) {
-            if !are_any_left(suspects) {
-                continue;
-            }
-            let (body, block) = self.block_of(suspects[0].place);
-            let [q, v] = [q, v].map(|place| &work.peaks.pieces[place][body.modes.clone()]);
-            let values = values_of(block, q, v);
-            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-                let [direct, rate] = match self.system.is_pushed {
-                    true => work.peaks.direct[suspect.place],
-                    false => [0.0; 2],
-                };
-                let value = values[suspect.place % LANES] + flight.rest[suspect.place] + (direct + rate * time);
-                then(suspect, value);
-            }
-        }
     }
 
     /// Works out bounds on |y''| from the start of some bounds on the modes on: |q''| <= E / w, |q'''| <= E.
@@ -308,11 +287,12 @@ impl PeakFinder<'_> {
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
             let of = suspect.of;
             self.set_flight_rows(of, &mut rows);
-            let [direct, rate] = if self.system.is_pushed { work.peaks.direct[suspect.place] } else { [0.0; 2] };
+            let [direct, rate] = work.peaks.direct[suspect.place];
             let added = [flight.rest[suspect.place] + (direct + rate * from), rate];
             let quantity = Quantity { of, rows: &rows, lanes: None, span, added, ground, oscillates };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
-            suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
+            let found = highest_turn(&terms[..=order], end, suspect.peak, |_, value| value);
+            suspect.peak = found.map_or(suspect.peak, |(_, peak)| peak);
         }
         work.peaks.rows = rows;
     }

@@ -6,7 +6,7 @@
 //! against its lower one or the foundation; shears are less by it.
 
 use crate::scene::{Place, Scene};
-use crate::structure::{BuildingId, Structure};
+use crate::structure::{BuildingId, Storey, Structure};
 
 /// A storey of a shear building, or a floor of one with a stiffness matrix.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ impl Correction {
     pub(crate) fn all(scene: &Scene, structure: &Structure) -> Vec<Correction> {
         let buildings = structure.ids().filter(|_| scene.restoring_corrections);
         let numbers = buildings.flat_map(|id| (0..structure.floors(id)).map(move |number| (id, number)));
-        let of = |(id, number): (BuildingId, usize)| {
+        let of = |(id, number): Storey| {
             let stiffness = scene.building(id).stiffness.of_storey(number);
             Correction { building: id, number, stiffness }
         };

@@ -15,7 +15,7 @@
 
 use crate::engine::quantities::corrections::Correction;
 use crate::numerics::polynomial::cut;
-use crate::structure::{Body, BuildingId, FlightModes, LANES, Lane, ModalDamping, Structure};
+use crate::structure::{Body, BuildingId, FlightModes, LANES, Lane, ModalDamping, Storey, Structure};
 use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
@@ -165,7 +165,7 @@ impl BodyRows {
     fn of((structure, corrections): (&Structure, &[Correction]), b: usize, first: usize) -> BodyRows {
         let body = &structure.bodies[b];
         let links = || (0..structure.links.len()).filter(|l| structure.links[*l].body == b);
-        let floors: Vec<(BuildingId, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
+        let floors: Vec<Storey> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
         let of_floors = |of: fn(BuildingId, usize) -> PeakOf| floors.iter().map(move |&(id, floor)| of(id, floor));
         let moving = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift));
         let corrected = corrections.iter().filter(|of| of.stiffness.is_some() && body.has(of.building));

@@ -1,7 +1,7 @@
 //! Quantities of single storeys that follow from what is watched anyway.
 
 use crate::scene::{Building, ContactPair, Scene, Stiffness};
-use crate::structure::BuildingId;
+use crate::structure::Storey;
 
 /// A quantity of one storey. Each is a factor times another output, or the largest of some.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,7 +25,7 @@ pub(crate) struct Storeys {
     /// What a mass above each storey takes of its stiffness by its weight, N/m per kg; empty where weights are given.
     pub weights: Vec<Vec<f64>>,
     /// The storey whose columns are hit at each contact.
-    pub struck: Vec<Option<(BuildingId, usize)>>,
+    pub struck: Vec<Option<Storey>>,
 }
 
 impl Storeys {
@@ -47,7 +47,7 @@ impl Storeys {
     }
 
     /// How much of a quantity there is per m of drift.
-    pub(crate) fn per_drift(&self, of: StoreyPeak, (id, storey): (BuildingId, usize)) -> f64 {
+    pub(crate) fn per_drift(&self, of: StoreyPeak, (id, storey): Storey) -> f64 {
         let of_storey = |all: &[Vec<f64>]| all[id.index()].get(storey).copied();
         let factor = match of {
             StoreyPeak::DriftRatio => of_storey(&self.heights).map(f64::recip),

@@ -7,6 +7,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::numerics::polynomial::{MAX_TERMS, value_and_slope};
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, difference};
 
@@ -61,22 +62,15 @@ impl System {
     }
 
     /// Writes penetration and rate of each tracked pair at the x of the powers of a series in time.
-    pub(crate) fn track(
-        &self,
-        base: &Base,
-        series: &MotionSeries,
-        powers: &Powers,
-        scalar: &mut [f64],
-        tracked: &mut Tracked,
-    ) {
+    pub(crate) fn track(&self, base: &Base, series: &MotionSeries, powers: &Powers, tracked: &mut Tracked) {
         tracked.fill(None);
         for &p in &self.rigid.pairs {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             tracked[p] = contact.tracked.then(|| {
-                let terms = &mut scalar[..=series.order];
+                let terms = &mut [0.0; MAX_TERMS][..=series.order];
                 let noise = pair.noise(pair.row.project(base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
-                let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
+                let (penetration, slope) = value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
             });
         }

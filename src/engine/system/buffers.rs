@@ -2,7 +2,7 @@
 //! step that is being planned.
 
 use crate::numerics::complementarity::Complementarity;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
+use crate::numerics::polynomial::MAX_ORDER;
 use crate::numerics::powers::Powers;
 use crate::numerics::sum::Sum;
 use crate::structure::{Interval, LinearLoad, MotionSeries, Scratch, Structure, WorkRoom};
@@ -36,8 +36,6 @@ pub struct Buffers {
     pub account: WorkRoom,
     /// That energy since the start, J, while it is read.
     pub dashpot_sums: Vec<Sum>,
-    /// Terms of one pair's penetration, m.
-    pub scalar: Coefficients,
     /// Powers of the point at which a series is evaluated.
     pub powers: Powers,
     /// The problem of the reactions or impulses of rigid pairs.
@@ -67,7 +65,6 @@ impl Buffers {
             node_v: vector(),
             dashpot_sums: Vec::with_capacity(structure.links.len()),
             account: WorkRoom::new(structure),
-            scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
         }

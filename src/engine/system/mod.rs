@@ -26,7 +26,9 @@ use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{BuildingId, FEW_BLOCKS, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Structure};
+use crate::structure::{
+    BuildingId, FEW_BLOCKS, ImpulseResponse, LANES, LinearGround, Motion, MotionMut, Storey, Structure,
+};
 
 /// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
@@ -35,7 +37,7 @@ pub struct System {
     /// The names of the buildings.
     pub names: Vec<String>,
     /// The storeys on whose lean gravity acts, with what it takes of their stiffness, N/m.
-    pub leaning: Vec<((BuildingId, usize), f64)>,
+    pub leaning: Vec<(Storey, f64)>,
     /// The fastest rate of the buildings with or without elements that yield, 1/s.
     pub fastest: f64,
     pub pairs: Vec<Pair>,
@@ -330,7 +332,7 @@ fn initial_floors(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
 }
 
 /// The storeys on whose lean gravity acts, with g, N/m.
-fn leaning(scene: &Scene) -> Vec<((BuildingId, usize), f64)> {
+fn leaning(scene: &Scene) -> Vec<(Storey, f64)> {
     let leaning = scene.ids().zip(&scene.buildings).filter(|(_, building)| building.has_gravity());
     let of = |(id, building): (BuildingId, &Building)| {
         building.gravity_stiffness().into_iter().enumerate().map(move |(storey, g)| ((id, storey), g))

@@ -5,7 +5,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::inputs::{Inputs, LinearInput, Push};
 use crate::engine::quantities::pushed::Pushes;
 use crate::engine::system::System;
-use crate::structure::BuildingId;
+use crate::structure::{BuildingId, Storey};
 
 impl System {
     /// What a master may push with.
@@ -76,7 +76,7 @@ impl System {
     }
 
     /// The number among the corrections of that of a storey or floor, if there are any.
-    pub fn number_of_correction(&self, (id, number): (BuildingId, usize)) -> Option<usize> {
+    pub fn number_of_correction(&self, (id, number): Storey) -> Option<usize> {
         Some(self.structure.number(id, number)).filter(|number| *number < self.corrections.len())
     }
 }

@@ -5,7 +5,7 @@ use crate::engine::base::{Coordinates, Rest};
 use crate::engine::system::System;
 use crate::engine::yielding::element::{Element, ElementOf, Present};
 use crate::scene::Place;
-use crate::structure::BuildingId;
+use crate::structure::{BuildingId, Storey};
 
 impl System {
     /// The position of rest of some storeys.
@@ -72,7 +72,7 @@ impl System {
     }
 
     /// The number of a storey of a building, counted from 0, among those that can yield.
-    pub fn number_of_storey(&self, (id, storey): (BuildingId, usize)) -> Option<usize> {
+    pub fn number_of_storey(&self, (id, storey): Storey) -> Option<usize> {
         self.number_of(ElementOf::Storey(id, storey))
     }
 
@@ -88,7 +88,7 @@ impl System {
 
     /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g lean^2.
     pub fn gravity_energy(&self, (coordinates, elements): (Coordinates, &[ElementState]), q: &[f64]) -> f64 {
-        let of = |&(place, g): &((BuildingId, usize), f64)| {
+        let of = |&(place, g): &(Storey, f64)| {
             let lean = self.lean(coordinates, place, q) + self.lean_at_rest(place, elements);
             -0.5 * g * (lean * lean)
         };
@@ -96,7 +96,7 @@ impl System {
     }
 
     /// Lean of a storey in the position of rest, m.
-    fn lean_at_rest(&self, (id, storey): (BuildingId, usize), elements: &[ElementState]) -> f64 {
+    fn lean_at_rest(&self, (id, storey): Storey, elements: &[ElementState]) -> f64 {
         if !self.structure.body(id).is_linked {
             let own = self.number_of_storey((id, storey));
             return own.map_or(0.0, |i| self.elements[i].kept() * elements[i].plastic);
@@ -110,7 +110,7 @@ impl System {
     }
 
     /// Lean of a storey in a motion: its drift, and by how much its foundation has turned.
-    fn lean(&self, coordinates: Coordinates, (id, storey): (BuildingId, usize), motion: &[f64]) -> f64 {
+    fn lean(&self, coordinates: Coordinates, (id, storey): Storey, motion: &[f64]) -> f64 {
         let places = self.structure.floors.places(id);
         let of_place = |(place, weight)| Some(weight * self.displacement(coordinates, (id, place), motion)?);
         places.lean(storey).filter_map(of_place).sum()

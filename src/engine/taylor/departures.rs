@@ -10,8 +10,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::polynomial::Coefficients;
-use crate::numerics::powers::Powers;
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::roots;
 use crate::structure::{MotionSeries, difference};
 
@@ -20,14 +19,14 @@ const ALIKE: f64 = 1e-12;
 
 impl System {
     /// Looks for the first departure up to the end of the step's series.
-    pub fn first_leaving(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, first: &mut First) {
+    pub fn first_leaving(&self, base: &Base, solution: &mut Solution, _: &mut Buffers, first: &mut First) {
         for ((_, members), reading) in solution.closed.packed.all().zip(&solution.closed.readings) {
             for (lane, p) in members.lanes() {
-                self.leaving(base, solution, work, (p, lane), reading, first);
+                self.leaving(base, solution, (p, lane), reading, first);
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
-            self.first_detachment(p, solution, work, first);
+            self.first_detachment(p, solution, first);
         }
     }
 
@@ -36,7 +35,6 @@ impl System {
         &self,
         base: &Base,
         solution: &Solution,
-        work: &mut Buffers,
         (p, lane): (usize, usize),
         reading: &BlockReading,
         first: &mut First,
@@ -45,15 +43,15 @@ impl System {
         // A pair that entered with a velocity of 0, so that its first terms may be rounding, is released only beyond
         // their rounding error.
         let depth = match contact.at_surface && contact.rate == 0.0 {
-            true => self.pairs[p].noise(self.size_of(p, base, solution, work, |powers| powers.in_time().0)),
+            true => self.pairs[p].noise(self.size_of(p, base, solution, solution.end.in_time().0)),
             false => 0.0,
         };
         let ends = (solution.end.x, first.until);
-        let released = released(&solution.closed, (p, lane), reading, ends, depth, &mut work.scalar);
+        let released = released(&solution.closed, (p, lane), reading, ends, depth);
         let until = released.unwrap_or(first.until);
         let passed = contact.force.guard.and_then(|guard| {
-            let noise = self.noise_of_guard(contact, &guard, base, solution, work);
-            self.passes_guard(contact, &guard, solution, (lane, reading), (until, noise), &mut work.scalar)
+            let noise = self.noise_of_guard(contact, &guard, base, solution);
+            self.passes_guard(contact, &guard, solution, (lane, reading), (until, noise))
         });
         match (passed, released) {
             (Some(x), _) if x < until || released.is_none() => first.set(x, Event::Branch(p)),
@@ -64,19 +62,12 @@ impl System {
 
     /// The excess, in the guard's unit, by which a guard has to be passed: above 0 where the rate is only rounding, as
     /// otherwise the contact would pass back and forth for ever.
-    fn noise_of_guard(
-        &self,
-        contact: &Contact,
-        guard: &Guard,
-        base: &Base,
-        solution: &Solution,
-        work: &mut Buffers,
-    ) -> f64 {
+    fn noise_of_guard(&self, contact: &Contact, guard: &Guard, base: &Base, solution: &Solution) -> f64 {
         let rate = contact.rate.abs();
         if rate > ALIKE * base.velocity_scale {
             return 0.0;
         }
-        let size = self.size_of(contact.episode.contact, base, solution, work, |powers| powers.in_time().1);
+        let size = self.size_of(contact.episode.contact, base, solution, solution.end.in_time().1);
         let noise = 2.0 * f64::EPSILON * size / solution.series.scale;
         if rate <= noise { guard.damping.abs() * noise } else { 0.0 }
     }
@@ -89,7 +80,6 @@ impl System {
         solution: &Solution,
         (lane, reading): (usize, &BlockReading),
         (until, noise): (f64, f64),
-        scalar: &mut Coefficients,
     ) -> Option<f64> {
         let (MotionSeries { scale, time_map, .. }, end) = (&solution.series, solution.end.x);
         let sense = if contact.phase == ContactPhase::Engaged { -1.0 } else { 1.0 };
@@ -103,7 +93,8 @@ impl System {
             return None;
         }
         let (block, lane) = solution.closed.packed.of(contact.episode.contact);
-        let terms = block.copy_penetration(lane, scalar) - 2;
+        let mut scalar = [0.0; MAX_TERMS];
+        let terms = block.copy_penetration(lane, &mut scalar) - 2;
         let (stiffness, rate) = (sense * guard.stiffness, sense * guard.damping / scale);
         let mut previous = 0.0;
         for n in 0..terms {
@@ -127,13 +118,13 @@ impl System {
     }
 
     /// Looks for the instant at which the reaction of a held pair falls to 0.
-    fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, first: &mut First) {
+    fn first_detachment(&self, p: usize, solution: &Solution, first: &mut First) {
         let Some(k) = self.rigid.pairs.iter().position(|&pair| pair == p) else {
             return debug_assert!(false, "a held pair is a rigid one");
         };
         let noise = self.acceleration_noise(p, &solution.series, first.until) / self.rigid.matrix[(k, k)];
         let force = &solution.reactions[k][..=solution.reaction_order];
-        let pull = &mut work.scalar[..force.len()];
+        let pull = &mut [0.0; MAX_TERMS][..force.len()];
         for (pull, force) in pull.iter_mut().zip(force) {
             *pull = -force;
         }
@@ -141,18 +132,8 @@ impl System {
     }
 
     /// Sum of the magnitudes of the terms of a pair's relative motion, m, each times its factor at the end of the step.
-    fn size_of(
-        &self,
-        p: usize,
-        base: &Base,
-        solution: &Solution,
-        work: &mut Buffers,
-        factors: impl Fn(&Powers) -> &Coefficients,
-    ) -> f64 {
-        let series = &solution.series;
-        work.powers.set_by(&series.time_map, solution.end.x, series.order);
-        work.powers.set_in_time(&series.time_map);
-        self.pairs[p].row.project(base.coordinates, series, factors(&work.powers), &mut work.scalar)
+    fn size_of(&self, p: usize, base: &Base, solution: &Solution, factors: &Coefficients) -> f64 {
+        self.pairs[p].row.project(base.coordinates, &solution.series, factors, &mut [0.0; MAX_TERMS])
     }
 }
 
@@ -163,7 +144,6 @@ fn released(
     reading: &BlockReading,
     (end, until): (f64, f64),
     depth: f64,
-    distance: &mut Coefficients,
 ) -> Option<f64> {
     let (block, _) = closed.packed.of(p);
     let first = (-(block.penetration[0][lane] + depth).max(0.0), -block.penetration[1][lane]);
@@ -171,7 +151,8 @@ fn released(
     if roots::upper_bound(first, last, end, reading.fourth[lane]) <= 0.0 {
         return None;
     }
-    let terms = block.copy_penetration(lane, distance);
+    let mut distance = [0.0; MAX_TERMS];
+    let terms = block.copy_penetration(lane, &mut distance);
     // The distance of the floors: positive once the penetration has passed 0 downwards.
     for d in &mut distance[..terms] {
         *d = -*d;

@@ -51,12 +51,11 @@ pub fn plan(
     // The scale of contact does not change while none is closed.
     let next_length = (!is_exact).then(|| series.time(reach));
     let event = system.first_event(base, solution, work, end);
-    solution.end.set_in_time(&solution.series.time_map);
     solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
     let reaches_limit = is_whole && !is_cut && event.is_none();
     let length = if reaches_limit { remaining } else { solution.series.time(solution.end.x) };
     planned.plan(length, event, reaches_limit, next_length);
-    system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
+    system.track(base, &solution.series, &solution.end, &mut planned.tracked);
     for (reaction, &p) in solution.reactions.iter().zip(&system.rigid.pairs) {
         if base.contacts[p].is_held() {
             base.contacts[p].reaction = reaction[0];

@@ -18,7 +18,6 @@ impl System {
             return;
         }
         let Solution { series, end, substitution, .. } = solution;
-        end.set_in_time(&series.time_map);
         let sizes = TermSizes::of(series, end.x, &mut work.node_q);
         let expanded = Expanded { series, factors: end.in_time().0, substitution: Some(substitution), is_start: true };
         for limit in ahead.filter(|limit| !limit.is_excluded_by(&sizes, base.coordinates, series)) {

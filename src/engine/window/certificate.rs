@@ -14,7 +14,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
-use crate::numerics::polynomial::SECOND;
+use crate::numerics::polynomial::{MAX_TERMS, SECOND};
 use crate::structure::MotionSeries;
 
 /// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
@@ -43,24 +43,16 @@ impl Windows {
             }
             passage.stays_apart(&Approach { window, free: terms, kernels, curvature })
         });
-        pairs_hold
-            && self.others_stay_apart(system, base, (window, free), work)
-            && window.stays_elastic(system, base, work)
+        pairs_hold && self.others_stay_apart(system, base, (window, free)) && window.stays_elastic(system, base, work)
     }
 
     /// Whether all pairs outside the window stay apart.
-    fn others_stay_apart(
-        &self,
-        system: &System,
-        base: &Base,
-        (window, free): (&Window, &MotionSeries),
-        work: &mut Buffers,
-    ) -> bool {
+    fn others_stay_apart(&self, system: &System, base: &Base, (window, free): (&Window, &MotionSeries)) -> bool {
         let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
-            let terms = &mut work.scalar[..=free.order];
+            let terms = &mut [0.0; MAX_TERMS][..=free.order];
             free.dot_each(&system.pairs[p].row.modes, 2, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {

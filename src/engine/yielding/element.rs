@@ -10,7 +10,7 @@ use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::yielding::lift::Lift;
 use crate::scene::{NetStorey, Place, Scene};
-use crate::structure::{BuildingId, Structure};
+use crate::structure::{BuildingId, Storey, Structure};
 
 /// What an element is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl Element {
         }
     }
 
-    fn of_storey(scene: &Scene, structure: &Structure, (id, storey): (BuildingId, usize)) -> Option<Element> {
+    fn of_storey(scene: &Scene, structure: &Structure, (id, storey): Storey) -> Option<Element> {
         let building = scene.building(id);
         let of = building.net_storey(storey)?;
         let places: Vec<(Place, f64)> = structure.floors.places(id).drift(storey).collect();

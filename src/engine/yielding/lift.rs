@@ -11,7 +11,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::element::ElementState;
-use crate::structure::{BuildingId, Structure, dot};
+use crate::structure::{Storey, Structure, dot};
 use std::ops::Range;
 
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub(super) enum Lift {
 
 impl Lift {
     /// Of a storey in a building by itself.
-    pub(super) fn above(structure: &Structure, (id, storey): (BuildingId, usize), kept: f64) -> Lift {
+    pub(super) fn above(structure: &Structure, (id, storey): Storey, kept: f64) -> Lift {
         let count = structure.floors(id);
         let lifted: Vec<f64> = (0..count).map(|floor| f64::from(u8::from(floor >= storey))).collect();
         let mut modes = vec![0.0; structure.lanes];

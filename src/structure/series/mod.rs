@@ -75,7 +75,6 @@ impl MotionSeries {
     /// The powers of the x at a time, s.
     pub fn set_powers(&self, time: f64, powers: &mut Powers) {
         powers.set_by(&self.time_map, self.x_at(time), self.order);
-        powers.set_in_time(&self.time_map);
     }
 
     /// The coefficients of power `n`.
