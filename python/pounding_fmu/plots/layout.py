@@ -96,7 +96,7 @@ class Contact:
         self.surfaces: dict[str, Surface] = {end: told[end] for end in ENDS}
         heights = [height(surface, scene.levels) for surface in self.surfaces.values() if surface["kind"] != "wall"]
         self.height = float(np.mean(heights))
-        self.meeting = in_words(*self.surfaces.values(), scene.is_pair)
+        self.meeting = in_words(self.surfaces, scene.is_pair)
         self.name = self.meeting + (f", level {self.height:.4g} m" if scene.has_levels else "")
         begins_with_name = self.name.split()[0] in {*scene.floors} - {*ENDS}
         self.title = self.name if begins_with_name else self.name[:1].upper() + self.name[1:]
@@ -129,7 +129,7 @@ class Link:
     def __init__(self, told: dict[str, Any], is_pair: bool = True) -> None:
         self.parts: list[str] = told["parts"]
         self.surfaces: dict[str, Surface] = {end: told[end] for end in ENDS}
-        self.name = in_words(*self.surfaces.values(), is_pair).replace("wall", "ground")
+        self.name = in_words(self.surfaces, is_pair).replace("wall", "ground")
         self.made_of = " and ".join(self.parts)
 
     @property
@@ -157,8 +157,9 @@ def height(surface: Surface, levels: Levels) -> float:
     return float(below + surface["position"] * (above - below))
 
 
-def in_words(left: Surface, right: Surface, is_pair: bool) -> str:
+def in_words(surfaces: dict[str, Surface], is_pair: bool) -> str:
     """What meets, in few words; in a scene of two buildings, `both` are these."""
+    left, right = (surfaces[end] for end in ENDS)
     if left["kind"] == right["kind"] == "floor":
         is_same = left["floor"] == right["floor"] and is_pair
         if is_same and left["floor"] == 0:

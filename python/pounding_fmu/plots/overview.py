@@ -37,9 +37,9 @@ def overview(runs: Runs) -> Figure:
     figure = Figure(figsize=(WIDTH, charts + above))
     figure.suptitle(textwrap.fill(heading(runs), int(LETTERS * WIDTH)), x=0.01, ha="left", fontsize=12)
     if above:
-        upper, lower = figure.add_gridspec(2, 1, height_ratios=[above, charts])
-        draw_at_rest(figure.add_subplot(upper), runs)
-        both = lower.subgridspec(1, 2, width_ratios=[1, 1.7])
+        whole = figure.add_gridspec(2, 1, height_ratios=[above, charts])
+        draw_at_rest(figure.add_subplot(whole[0]), runs)
+        both: Any = whole[1].subgridspec(1, 2, width_ratios=[1, 1.7])
         draw_all(figure, both[0], runs)
     else:
         both = figure.add_gridspec(1, 2, width_ratios=[1, 1.7])
