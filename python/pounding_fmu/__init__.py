@@ -1,4 +1,4 @@
-"""Two buildings that collide in an earthquake: run their scenes, and make FMUs of them, without a compiler.
+"""Buildings that collide in an earthquake: run their scenes, and make FMUs of them, without a compiler.
 
 >>> import pounding_fmu
 >>> result = pounding_fmu.simulate(pounding_fmu.example_scene, stop=5)
@@ -22,7 +22,7 @@ from ._couple import couple
 from ._data import DATA
 from ._fmu import build_fmu
 from ._native import __version__
-from ._scenes import SceneWarning, Variable, problems, variables
+from ._scenes import SceneWarning, Variable, buildings, problems, variables
 from ._single import Result, simulate
 from .record import read_record
 
@@ -33,6 +33,7 @@ __all__ = [
     "Variable",
     "__version__",
     "build_fmu",
+    "buildings",
     "couple",
     "example_scene",
     "problems",

@@ -89,7 +89,7 @@ def compiled(arguments: list[str]) -> int:
 
 def overview() -> str:
     """The beginning of ``--help``: a line for each command, and an example below it."""
-    lines = ["Two buildings that collide in an earthquake: FMUs, runs, pictures and studies of a scene.", ""]
+    lines = ["Buildings that collide in an earthquake: FMUs, runs, pictures and studies of a scene.", ""]
     lines += ["Usage: pounding-fmu SCENE.toml [OPTIONS]", "       pounding-fmu COMMAND ...", ""]
     for command in COMMANDS:
         lines += [f"  {command.name:<12}{command.about}", f"{'':<16}pounding-fmu {command.example}"]

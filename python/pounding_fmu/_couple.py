@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 from . import _native
-from ._scenes import positive, read_scene, refuse, warn
+from ._scenes import by_name, positive, read_scene, refuse, unknown, warn
 from ._single import Result, prepared, run, wished
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from ._scenes import Record, Scene
 
 WAYS = ("line", "twice", "held")
-SIDES = ("left", "right")
 # Of the largest stiffness: what differences of forces leave.
 ROUNDING = 1e-6
 
@@ -44,11 +43,12 @@ def couple(
     parameters: Mapping[str, float | str | os.PathLike[str]] | None = None,
     record: Record | None = None,
     *,
+    models: Mapping[str, Model] | None = None,
     rows_per_impact: int | None = None,
 ) -> Result:
-    """Runs a scene in which one building or both are another program's: it answers with restoring forces, step by step.
+    """Runs a scene in which one building or several are another program's: it answers with restoring forces, step by step.
 
-    Masses, damping, foundations, gravity, links and contacts are those of the scene, and so is the other building. Of a
+    Masses, damping, foundations, gravity, links and contacts are those of the scene, and so are the other buildings. Of a
     building that a model has, ``initial_stiffness()`` takes the place of its ``stiffness`` or ``stiffness_matrix``, and
     it does not yield by itself. What the model adds to that stiffness goes in as a line over each step (the inputs
     ``left.storey_correction[i]`` or ``left.restoring_correction[i]``), and impacts are found within the step as ever.
@@ -58,6 +58,7 @@ def couple(
         left: the building on the left, with ``initial_stiffness()`` and ``move(displacements)``; without it, that of the
             scene. A model keeps what it has been through: each run wants one of its own.
         right: likewise.
+        models: those of any buildings by their names, as ``{"corner": model}``.
         step: s, from one call of ``move`` to the next, and from row to row.
         how: ``"line"``: corrections go on over a step as they went over the last one. ``"twice"``: a step is tried so,
             the model is moved to where that leads, and the step is made again with corrections that lead there: errors
@@ -103,24 +104,29 @@ def couple(
         SceneWarning: for each thing that looks like a slip, also where a model becomes stiffer than its
             ``initial_stiffness()``.
     """
-    models = {side: model for side, model in zip(SIDES, (left, right)) if model is not None}
-    _check(models, how)
+    models = _models({"left": left, "right": right}, models, how)
     step = positive("step", step)
     stiffness = {side: _stiffness(side, model) for side, model in models.items()}
-    outside = [(side == "right", rows) for side, rows in stiffness.items()]
-    read = _native.with_outside(read_scene(_completed(scene, stiffness)), outside)
+    read = read_scene(_completed(scene, stiffness))
+    places = _places(read, models)
+    read = _native.with_outside(read, [(places[side], rows) for side, rows in stiffness.items()])
     read, names = prepared(read, parameters, record)
     columns, within = wished(names, outputs, rows_per_impact)
     stop = read.stop() if stop is None else positive("stop", stop)
     warn(read.warnings())
-    calls = [(side == "right", model.move) for side, model in models.items()]
+    calls = [(places[side], model.move) for side, model in models.items()]
     coupled, slips = _native.couple(read, calls, how, step, stop)
     warn(slips)
     return run(coupled, names, step, stop, columns, within)
 
 
-def _check(models: Mapping[str, Model], how: str) -> None:
+def _models(sides: Mapping[str, Model | None], named: Mapping[str, Model] | None, how: str) -> dict[str, Model]:
+    """All models by the names of their buildings."""
     found = [] if how in WAYS else [f"how = {how!r}: expected one of {', '.join(WAYS)}"]
+    models = {side: model for side, model in sides.items() if model is not None}
+    of_row = by_name("models", named)
+    found += [f"models: {side}: expected it once, here or by its own argument" for side in of_row if side in models]
+    models |= of_row
     found += [] if models else ["left, right: expected a model for at least one building"]
     refuse(found)
     for side, model in models.items():
@@ -128,19 +134,36 @@ def _check(models: Mapping[str, Model], how: str) -> None:
         if missing:
             expected = "a model with initial_stiffness() and move(displacements)"
             raise TypeError(f"{side}: expected {expected}, but it has no {missing[0]}")
+    return models
+
+
+def _places(read: _native.Scene, models: Iterable[str]) -> dict[str, int]:
+    """Where in the row the buildings stand that have models."""
+    places = {side: place for place, side in enumerate(read.buildings())}
+    among = f"expected the name of a building ({', '.join(places)})"
+    refuse([f"{unknown(side, places, 'the scene has no such building')}; {among}" for side in models if side not in places])
+    return places
 
 
 def _completed(scene: Scene, stiffness: Mapping[str, list[list[float]]]) -> Scene:
     """A dict may leave out the stiffness that a model has."""
     if not isinstance(scene, Mapping):
         return scene
-    completed = dict(scene)
-    for side, rows in stiffness.items():
-        building = scene.get(side)
-        if isinstance(building, Mapping) and not {"stiffness", "stiffness_matrix"} & building.keys():
-            own = {"stiffness": rows[0]} if len(rows) == 1 else {"stiffness_matrix": rows}
-            completed[side] = {**building, **own}
-    return completed
+
+    def completed(side: str, building: Any) -> Any:
+        rows = stiffness.get(side)
+        if rows is None or not isinstance(building, Mapping) or {"stiffness", "stiffness_matrix"} & building.keys():
+            return building
+        own = {"stiffness": rows[0]} if len(rows) == 1 else {"stiffness_matrix": rows}
+        return {**building, **own}
+
+    of_sides = {side: completed(side, scene[side]) for side in ("left", "right") if side in scene}
+    row = scene.get("building")
+    if not isinstance(row, (list, tuple)):
+        return {**scene, **of_sides}
+    # A building without a name has that of its place.
+    named = [(str(of.get("name", f"b{place}")) if isinstance(of, Mapping) else "", of) for place, of in enumerate(row, 1)]
+    return {**scene, **of_sides, "building": [completed(name, of) for name, of in named]}
 
 
 def _stiffness(side: str, model: Model) -> list[list[float]]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ._single import Result
 
-COLOURS = {"left": "#0072B2", "right": "#D55E00"}
+MOST_ROOFS = 2  # that a small picture can show
 
 
 def page(result: Result, name: str) -> str:
@@ -27,20 +27,26 @@ def page(result: Result, name: str) -> str:
 
 
 def picture(result: Result) -> str:
-    """The roofs and the sum of all contact forces over time; nothing where matplotlib or such columns are missing."""
+    """The roofs and the sum of all contact forces over time; nothing where matplotlib or such columns are missing. Of more than
+    two buildings, the two whose roofs move farthest."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
         return ""
-    names = {side: [name for name in result if name.startswith(f"{side}.displacement[")] for side in COLOURS}
-    roofs = {side: of_side[-1] for side, of_side in names.items() if of_side}
+    from .plots.style import looks
+
+    # In the order of the FMU the highest floor is the last one.
+    every = {name.partition(".displacement[")[0]: name for name in result if ".displacement[" in name}
+    colours = {side: look["color"] for side, look in looks(result._names).items()}
+    farthest = sorted(every, key=lambda side: abs(result[every[side]]).max())[-MOST_ROOFS:]
+    roofs = {side: name for side, name in every.items() if side in farthest}
     forces = [result[name] for name in result if name.startswith("contact[") and name.endswith("].force")]
     if not roofs and not forces:
         return ""
     figure = Figure(figsize=(6.4, 3.0), layout="constrained")
     panels = figure.subplots(bool(roofs) + bool(forces), 1, sharex=True, squeeze=False)[:, 0]
     for side, name in roofs.items():
-        panels[0].plot(result["time"], 1e3 * result[name], color=COLOURS[side], linewidth=0.8, label=f"{side} roof")
+        panels[0].plot(result["time"], 1e3 * result[name], color=colours[side], linewidth=0.8, label=f"{side} roof")
         panels[0].set_ylabel("mm")
         panels[0].legend(loc="upper right", ncols=2, frameon=False, fontsize="small")
     if forces:

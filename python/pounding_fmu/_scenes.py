@@ -83,6 +83,21 @@ def variables(scene: Scene) -> dict[str, Variable]:
     return variables_of(read_scene(scene))
 
 
+def buildings(scene: Scene) -> list[str]:
+    """The names of the buildings of a scene, from left to right: its variables begin with them.
+
+    >>> import pounding_fmu
+    >>> buildings(pounding_fmu.example_scene)
+    ['left', 'right']
+
+    Raises:
+        ValueError: everything that is wrong with the scene.
+        OSError: the scene file cannot be read.
+        TypeError: the scene is none of the forms that a scene may have.
+    """
+    return read_scene(scene).buildings()
+
+
 def read_scene(scene: Scene) -> _native.Scene:
     """A scene that can be run."""
     read, found = _read(scene)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _native
@@ -42,7 +42,7 @@ class Result(Mapping[str, "NDArray[Any]"]):
         self._columns = dict(columns)
         self.impacts = impacts
         self._own_scene: _native.Scene | None = scene
-        self._name, self._step, self._stop = scene.name, step, stop
+        self._name, self._names, self._step, self._stop = scene.name, scene.buildings(), step, stop
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_own_scene": None}
@@ -64,21 +64,29 @@ class Result(Mapping[str, "NDArray[Any]"]):
         storeys. The scene is run once more for it, since it needs more than the columns of this run."""
         return _native.summary(self._scene, self._step, self._stop)
 
-    def plot(self, start: float | None = None, stop: float | None = None, picture: str = "overview") -> Figure:
+    def plot(
+        self,
+        start: float | None = None,
+        stop: float | None = None,
+        picture: str = "overview",
+        buildings: Sequence[str] | None = None,
+    ) -> Figure:
         """Draws the run, as ``pounding-fmu plot`` does, and returns the matplotlib figure.
 
         Args:
             start: s, where the parts over time begin; the beginning, or where it is worth a look, if nothing is said.
             stop: s, their end.
             picture: ``overview``, or the name of a single picture, as ``pounding-fmu plot --picture`` has them.
+            buildings: one or two names: those whose floors, storeys and loops are charted. Of more than two buildings those
+                of the hardest impact, where nothing is said.
 
         Raises:
             ImportError: matplotlib is not installed; the message has the line that installs it.
-            ValueError: times that are not in the run, a picture that there is not.
+            ValueError: times that are not in the run, a picture or a building that there is not.
         """
         from .plots import figure
 
-        return figure(self, start, stop, picture)
+        return figure(self, start, stop, picture, buildings)
 
     def to_dataframe(self) -> Any:
         """The columns as a ``pandas.DataFrame``, ``time`` first.

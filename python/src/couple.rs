@@ -8,26 +8,26 @@ use pounding_simulate::couple::{Asked, Failure, How, Outside, Stiffer, couple as
 use pyo3::exceptions::{PyException, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// The scene with buildings of other programs: for each, whether it is the right one and its stiffness, N/m, as rows of
-/// a matrix, or a single row of storeys.
+/// The scene with buildings of other programs: for each its place in the row, counted from 0, and its stiffness, N/m, as rows
+/// of a matrix, or a single row of storeys.
 #[pyfunction]
-pub fn with_outside(scene: &Bound<'_, Scene>, stiffness: Vec<(bool, Vec<Vec<f64>>)>) -> PyResult<Scene> {
-    let of = |(is_right, mut rows): (bool, Vec<Vec<f64>>)| {
+pub fn with_outside(scene: &Bound<'_, Scene>, stiffness: Vec<(u8, Vec<Vec<f64>>)>) -> PyResult<Scene> {
+    let of = |(place, mut rows): (u8, Vec<Vec<f64>>)| {
         let storeys = (rows.len() == 1).then(|| pounding::scene::Stiffness::Shear(rows.remove(0)));
-        (side(is_right), storeys.unwrap_or_else(|| stiffness_of(rows)))
+        (BuildingId::new(place.into()), storeys.unwrap_or_else(|| stiffness_of(rows)))
     };
     let stiffness = stiffness.into_iter().map(of).collect();
     scene.get().0.with_outside(stiffness).map(Scene).map_err(|error| refusal(&error))
 }
 
-/// Runs such a scene; `models` are, for each of its buildings, whether it is the right one and what is called with
-/// displacements, m, and returns forces, N. The scene comes back with what went in, so that the same run can be made
+/// Runs such a scene; `models` are, for each of its buildings, its place in the row and what is called with displacements, m,
+/// and returns forces, N. The scene comes back with what went in, so that the same run can be made
 /// again without them, and with what looks like a slip.
 #[pyfunction]
 pub fn couple(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
-    models: Vec<(bool, Bound<'_, PyAny>)>,
+    models: Vec<(u8, Bound<'_, PyAny>)>,
     how: &str,
     step: f64,
     stop: f64,
@@ -40,21 +40,17 @@ pub fn couple(
     let scenario = &scene.get().0;
     let described = &scenario.settings.scene;
     let model = scenario.model().map_err(|error| refusal(&error))?;
-    let outside = models.into_iter().map(|(is_right, model)| {
+    let outside = models.into_iter().map(|(place, model)| {
         let forces = move |displacements: &[f64]| {
             py.check_signals()?;
             forces(&model.call1((PyArray1::from_slice(py, displacements),))?, displacements.len())
         };
-        Outside { building: side(is_right), forces: Box::new(forces) }
+        Outside { building: BuildingId::new(place.into()), forces: Box::new(forces) }
     });
     let whole = || run(&model, described, outside.collect(), how, (step, stop));
     let coupled = caught(whole).map_err(PyRuntimeError::new_err)?.map_err(|failure| raised(py, described, failure))?;
     let slips = coupled.stiffer.iter().map(|stiffer| slip(described, stiffer)).collect();
     Ok((Scene(scenario.with_corrections(coupled.corrections)), slips))
-}
-
-fn side(is_right: bool) -> BuildingId {
-    if is_right { BuildingId::RIGHT } else { BuildingId::LEFT }
 }
 
 /// The forces that a model has answered with.

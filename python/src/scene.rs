@@ -85,6 +85,11 @@ impl Scene {
         &self.0.settings.scene.description
     }
 
+    /// The names of its buildings, from left to right.
+    fn buildings(&self) -> Vec<&str> {
+        self.0.settings.scene.buildings.iter().map(|building| building.name.as_str()).collect()
+    }
+
     /// What stands where, as JSON.
     fn layout(&self) -> PyResult<String> {
         serde_json::to_string(&Layout::of(&self.0.settings.scene))

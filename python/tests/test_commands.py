@@ -1,6 +1,8 @@
 """The command `pounding-fmu`: its help, words that are no command, examples, reports."""
 
+import json
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -173,6 +175,23 @@ def test_a_report_of_a_scene(tmp_path):
     assert done.returncode == 1 and "cannot write no/such/place.html" in done.stderr
     done = run("report", "missing.toml", cwd=tmp_path)
     assert done.returncode == 1 and "missing.toml" in done.stderr
+
+
+ROW = "[[building]]\nname = \"{}\"\nmass = [1e5]\nstiffness = [{}]\ndamping = {{ ratio = 0.05 }}\nheight = [3.0]\n"
+
+
+def test_a_report_begins_with_the_buildings_that_are_named(tmp_path):
+    text = "".join(ROW.format(name, stiffness) for name, stiffness in [("a", 2e7), ("b", 5e7), ("c", 1e7)])
+    ground = f'[ground]\nrecord = "{fmus.RECORD}"\n[facing]\ngap = 0.01\nlaw = "linear"\nstiffness = 1e8\n'
+    (tmp_path / "row.toml").write_text(f'name = "Row"\n{text}{ground}')
+    for named, charted in (([], None), (["--buildings", "c", "a"], ["a", "c"])):
+        well("report", "row.toml", *named, cwd=tmp_path)
+        page = (tmp_path / "Row.html").read_text()
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
+        assert data["charted"] == charted and [building["name"] for building in data["buildings"]] == ["a", "b", "c"]
+    for named, said in (["d"], "d: the scene has no such building; expected one or two of a, b, c"), (["a", "b", "c"], "a b c: expected"):
+        done = run("report", "row.toml", "--buildings", *named, cwd=tmp_path)
+        assert done.returncode == 1 and f"--buildings {said}" in done.stderr
 
 
 def test_ctrl_c_within_an_exec_is_an_exit_code_too(tmp_path):

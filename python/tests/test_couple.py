@@ -352,3 +352,33 @@ def test_a_collapse_of_the_other_building_ends_the_run():
     }
     run = couple(scene(right=right), left=Bilinear(), step=0.005)
     assert run["right.collapsed"][-1] and run["time"][-1] < 6.0
+
+
+def row(**middle):
+    """The building of these tests between two that are softer."""
+    side = {"mass": MASS, "stiffness": 0.6 * STIFFNESS, "damping": {"ratio": 0.03}}
+    buildings = [{"name": "west", **side}, {"mass": MASS, "damping": {"ratio": 0.03}, **middle}, {"name": "east", **side}]
+    contacts = [{**CONTACT, "left": left, "right": right, "left_floor": 2, "right_floor": 2} for left, right in (("west", "b2"), ("b2", "east"))]
+    return {"name": "Row", "stop_time": 6.0, "building": buildings, "contact": contacts, "ground": {"record": str(fmus.RECORD), "scale": 1.5}}
+
+
+def test_a_model_of_any_building_of_a_row_is_known_by_its_name():
+    """As if it were inside, where `b2` is the name of the second one, which has none; its stiffness is the model's."""
+    inside = simulate(row(stiffness=STIFFNESS, **INSIDE), 0.0005)
+    run = couple(row(), models={"b2": Bilinear()}, step=0.0005, how="twice")
+    assert run["impacts"][-1] == inside["impacts"][-1] > 5
+    for name in ("west.displacement[2]", "b2.displacement[3]", "east.displacement[3]"):
+        assert np.abs(run[name] - inside[name]).max() < 1e-3 * np.abs(inside[name]).max(), name
+    other = couple(row(stiffness=STIFFNESS), models={"east": Bilinear(0.6 * STIFFNESS)}, step=0.0005)
+    assert np.abs(other["b2.displacement[3]"] - inside["b2.displacement[3]"]).max() > 1e-2 * np.abs(inside["b2.displacement[3]"]).max()
+
+
+def test_mistakes_with_models_of_a_row():
+    with pytest.raises(ValueError, match=r"left: the scene has no such building; expected the name of a building \(west, b2, east\)"):
+        couple(row(stiffness=STIFFNESS), left=Bilinear())
+    with pytest.raises(ValueError, match=r"wst: the scene has no such building; did you mean west\?"):
+        couple(row(stiffness=STIFFNESS), models={"wst": Bilinear()})
+    with pytest.raises(ValueError, match="models: left: expected it once, here or by its own argument"):
+        couple(scene(), left=Bilinear(), models={"left": Bilinear()})
+    with pytest.raises(TypeError, match="east: expected a model"):
+        couple(row(stiffness=STIFFNESS), models={"east": object()})

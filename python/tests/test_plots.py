@@ -72,6 +72,24 @@ def on_soil():
     return scene_of(left, building([0.5, 0.8], foundation=soil), contact=contacts)
 
 
+def row_of(names, stiffness, contacts=(), **more):
+    """Buildings of two storeys of 0.5 m, of different stiffness."""
+    row = [{"name": name, **building([0.5, 0.5], stiffness=[k, k])} for name, k in zip(names, stiffness)]
+    return {"name": "Row", "stop_time": 8.0, "ground": {"record": str(RECORD)}, "building": row, "contact": [*contacts], **more}
+
+
+def joint(left, right, gap, floor=2):
+    return {**LAW, "left": left, "right": right, "left_floor": floor, "right_floor": floor, "gap": gap}
+
+
+def row():
+    """The third one is softer, and the last two meet hardest; a wall on the left of the last one within the last gap."""
+    contacts = [joint("a", "b", 0.03), joint("b", "c", 0.002), joint("c", "d", 0.01), joint("c", "d", 0.014, floor=1)]
+    wall = {**LAW, "right": "d", "right_floor": 1, "wall": "left", "gap": 0.008}
+    link = {"left": "b", "right": "c", "left_floor": 1, "right_floor": 2, "stiffness": 100.0}
+    return row_of("abcd", [2910.0, 2910.0, 1500.0, 2910.0], [*contacts, wall], link=[link])
+
+
 def told(scene):
     return Layout(read_scene(scene))
 
@@ -100,7 +118,7 @@ def test_contacts_by_heights():
     assert [contact.gap for contact in scene.contacts] == [0.004] * 3
 
 
-@pytest.mark.parametrize("make", [facing, walls, on_soil])
+@pytest.mark.parametrize("make", [facing, walls, on_soil, row])
 def test_edges_overlap_by_the_penetration(make):
     scene = make()
     run = Run(pounding_fmu.simulate(scene, rows_per_impact=4), set())
@@ -454,3 +472,103 @@ def test_a_picture_says_which_storey_fell_and_when():
     assert (side, storey) == ("left", 1) and abs(time - 19.661357) < 1e-6
     titles = [axes.get_title(loc="left") for axes in draw(runs, "loops").axes]
     assert titles[0].endswith("(50.0, fell at 19.7 s)") and "fell" not in titles[1], titles
+
+
+def test_a_row_stands_with_its_gaps():
+    """From the right edge of a slab to the next building's left one it is the gap there, above and below the contacts as at
+    them, between them on a line."""
+    scene = told(row())
+    elevation = Elevation(Figure().subplots(), scene, 100.0)
+    edges = elevation.edges
+    assert scene.names == list(edges) == ["a", "b", "c", "d"]
+    gaps = {pair: edges[pair[1]] - edges[pair[0]] - 100.0 for pair in ("ab", "bc", "cd")}
+    assert gaps["ab"] == pytest.approx([30.0, 30.0]) and gaps["bc"] == pytest.approx([2.0, 2.0])
+    assert gaps["cd"] == pytest.approx([14.0, 10.0]) and elevation.ends() == (-100.0, pytest.approx(346.0))
+    assert elevation.faces == pytest.approx([0.0, 130.0, 232.0, 232.0, 238.0])
+
+
+def test_a_wall_in_a_row_stands_within_the_gap():
+    """Its face is 8 mm from the building, of a gap of 14 mm there."""
+    scene = told(row())
+    axes = Figure().subplots()
+    elevation = Elevation(axes, scene, 100.0)
+    before = len(axes.patches)
+    elevation.draw_surroundings(axes, (-150.0, 400.0))
+    (wall,) = axes.patches[before:]
+    near, far = wall.get_x() + np.array([0.0, wall.get_width()])
+    assert near == pytest.approx(238.0) and 232.0 < far < 238.0
+
+
+def test_links_of_a_row_move_with_its_floors():
+    scene = told(row())
+    assert scene.links[0].name == "b floor 1, c floor 2"
+    elevation = Elevation(Figure().subplots(), scene, 100.0)
+    (device,) = elevation.devices
+    before = device.get_xdata()
+    moved = dict.fromkeys("ad", np.zeros(2)) | {"b": np.array([3.0, 9.0]), "c": np.array([-4.0, 5.0])}
+    elevation.place(moved)
+    after = device.get_xdata()
+    assert np.nanmin(after) - np.nanmin(before) == pytest.approx(3.0)
+    assert np.nanmax(after) - np.nanmax(before) == pytest.approx(5.0)
+    # From within b, whose right edge is at 130 mm, to within c, which begins 2 mm from there.
+    assert np.nanmin(before) == pytest.approx(110.0) and np.nanmax(before) == pytest.approx(152.0)
+
+
+def test_charts_of_a_row_are_of_its_hardest_impact():
+    runs = runs_of(row())
+    impacts = pounding_fmu.simulate(row()).impacts
+    hardest = impacts[impacts["peak_force"].argmax()]
+    assert hardest["contact"] == 3 and runs.buildings == ["c", "d"] and runs.contacts == [3, 4, 5]
+    figure = draw(runs, "overview")
+    assert f"{len(impacts)} impacts, {(impacts['contact'] > 2).sum()} of them at c and d" in figure.get_suptitle()
+    (edges,) = panels(figure, "position [mm]")
+    position = curves(edges)["d"][1]
+    assert position == pytest.approx(10.0 + 1e3 * runs.run["d.displacement[2]"], abs=1e-9)
+    titles = [axes.get_title(loc="left") for axes in draw(runs, "drifts").axes]
+    assert titles == ["c", "d"]
+    assert [text.get_text() for text in figure.axes[0].get_xticklabels()] == ["a", "b", "c", "d"]
+
+
+def test_buildings_that_are_named_are_charted():
+    """Neighbours with the contacts between them; others with all that they have."""
+    named = lambda *names: Runs(read_scene(row()), 8.0, None, None, names)  # noqa: E731
+    assert (named("d", "c").buildings, named("d", "c").contacts) == (["c", "d"], [3, 4, 5])
+    assert (named("a", "c").buildings, named("a", "c").contacts) == (["a", "c"], [1, 2, 3, 4])
+    assert (named("d").buildings, named("d").contacts) == (["d"], [5])
+    axes = draw(named("d", "c"), "accelerations").axes[0]
+    assert axes.get_title(loc="left").startswith("Floor 2, c: up to")
+    for names, said in [(("e",), "e: the scene has no such building; expected one or two of a, b, c, d"), (tuple("abc"), "buildings = a b c")]:
+        with pytest.raises(ValueError, match=said):
+            named(*names)
+    figure = pounding_fmu.simulate(row(), stop=2).plot(picture="drifts", buildings="d")
+    assert [axes.get_title(loc="left") for axes in figure.axes] == ["d"]
+
+
+def test_the_command_charts_the_buildings_that_it_is_told(tmp_path, capsys):
+    assert plot(FEUP, "--stop", 1, "--buildings", "middle", "-o", tmp_path / "x.png") == 1
+    assert "buildings: middle: the scene has no such building; expected one or two of left, right" in capsys.readouterr().err
+    assert plot(FEUP, "--stop", 3, "--buildings", "left", "-o", tmp_path / "x.png") == 0
+
+
+def test_eight_buildings_are_told_apart():
+    """By eyes of every kind, as Machado, Oliveira and Fernandes (2009) model them, in CIELAB; and in grey by their lines."""
+    blind = {
+        "none": np.eye(3),
+        "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+        "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+    }
+
+    def lab(linear):
+        xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]) @ linear
+        x, y, z = np.cbrt(np.clip(xyz / [0.95047, 1.0, 1.08883], 1e-9, None))
+        return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+    looks = list(told(row_of([f"n{i}" for i in range(9)], [2910.0] * 9)).looks.values())
+    assert looks[8] == looks[0] and len({str(look["linestyle"]) for look in looks[:8]}) == 8
+    rgb = np.array([matplotlib.colors.to_rgb(look["color"]) for look in looks[:8]])
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    for seen in blind.values():
+        colours = [lab(np.clip(np.array(seen) @ colour, 0.0, 1.0)) for colour in linear]
+        apart = [np.linalg.norm(one - other) for i, one in enumerate(colours) for other in colours[:i]]
+        assert min(apart) > 13.0

@@ -118,3 +118,23 @@ def test_what_is_not_installed_is_named(package, call, line, tmp_path):
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, env=without(package, tmp_path), capture_output=True, text=True)
     assert done.stdout == f"this needs {package}, which is not installed: {line}\n", done.stderr
+
+
+def test_a_long_row_has_a_line_for_each_building():
+    """With the largest of its floors; and a line for the hardest contacts, which have the largest forces."""
+    house = {"mass": [1.5e5, 1.2e5], "damping": {"ratio": 0.05}, "height": [3.0, 3.0]}
+    row = [{**house, "stiffness": [4e7 + 1e7 * i, 4e7]} for i in range(13)]
+    facing = {"gap": 0.002, "law": "linear", "stiffness": 5e8}
+    ground = {"record": str(pounding_fmu.example_scene.parent.parent / "records" / "el_centro_1940_ns.csv")}
+    result = pounding_fmu.simulate({"name": "Long", "building": row, "facing": facing, "ground": ground})
+    tables = [table.splitlines() for table in result.summary().split("\n\n")]
+    (floors,) = (table for table in tables if table[0].split()[:2] == ["building", "floors"])
+    for place in (1, 7, 13):
+        (line,) = (line.split() for line in floors if line.split()[:1] == [f"b{place}"])
+        peaks = [result[f"b{place}.peak_{what}[{i}]"][-1] for what in ("displacement", "acceleration", "drift") for i in (1, 2)]
+        largest = [max(peaks[at : at + 2]) for at in (0, 2, 4)]
+        assert [float(number) for number in line[1:5]] == pytest.approx([2, *largest], rel=1e-4)
+    (contacts,) = (table[2:] for table in tables if table[0].split()[:2] == ["hardest", "contacts"])
+    told = {int(line.split(":")[0]) for line in contacts}
+    forces = sorted((result[f"contact[{p}].peak_force"][-1] for p in range(1, 25)), reverse=True)
+    assert len(told) == 20 and min(result[f"contact[{p}].peak_force"][-1] for p in told) == forces[19]

@@ -235,3 +235,15 @@ def test_slips_are_warnings_of_the_caller():
         with pytest.raises(pounding_fmu.SceneWarning):
             pounding_fmu.build_fmu(scene, "never.fmu")
     assert not Path("never.fmu").exists()
+
+
+def test_a_row_is_a_list_of_tables():
+    house = {"mass": [1e5], "stiffness": np.array([2e7]), "damping": {"ratio": 0.05}}
+    contacts = [{"left": left, "right": right, "left_floor": 1, "right_floor": 1, "gap": 0.01, "law": "linear", "stiffness": 1e8} for left, right in (("a", "b2"), ("b2", "c"))]
+    scene = {"name": "Row", "building": [{"name": "a", **house}, house, {"name": "c", **house}], "contact": contacts}
+    assert pounding_fmu.buildings(scene) == ["a", "b2", "c"]
+    assert [name for name in pounding_fmu.variables(scene) if name.endswith(".displacement[1]")] == [f"{name}.displacement[1]" for name in ("a", "b2", "c")]
+    scene["contact"][1]["right"] = "a"
+    assert pounding_fmu.problems(scene) == ['contact[2].right = "a": expected "c", the right neighbour of "b2"']
+    with pytest.raises(ValueError, match="right neighbour"):
+        pounding_fmu.buildings(scene)

@@ -22,7 +22,7 @@ def case_of(record="R", pga=1.0, gap=0.01):
 
 
 def row_of(case, *, storeys=STOREYS, drift=0.02, **more):
-    numbers = {name: kind(2) for name, kind in (table.INTENSITY | table.RESULT).items()}
+    numbers = {name: kind(2) for name, kind in table.always(storeys).items()}
     known = results.columns_of(case)
     of_storeys = {f"{side}_drift_m[{i}]": drift * i for side, count in storeys.items() for i in range(1, count + 1)}
     return {**known, **numbers, **of_storeys, "error": "", **more}

@@ -122,6 +122,9 @@ pub struct ReportArguments {
     /// Where the page goes; without it, NAME.html (NAME: the scene's) in the current directory.
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
+    /// One or two buildings whose floors and storeys are charted; without it, of more than two, those of the hardest impact.
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    buildings: Vec<String>,
 }
 
 /// Solves a scene, writes the files that are asked for, and returns the summary.
@@ -176,10 +179,11 @@ pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
     let package = read(&arguments.scene, arguments.record.as_deref())?;
     let file = arguments.output.clone().unwrap_or_else(|| format!("{}.html", package.scene.name).into());
     written::check(&sources(&arguments.scene, &package.scene, arguments.record.as_deref()), &[("-o", Some(&file))])?;
+    let charted = report::charted(&package.scene, &arguments.buildings)?;
     let stop = package.stop_time().unwrap_or(STOP);
     let model = model(&package)?;
     let mut page = report::create(&file)?;
-    page.write_all(report::page(&package, &model, stop, &events(&model, stop)?)?.as_bytes())?;
+    page.write_all(report::page_about(&package, &model, stop, &events(&model, stop)?, charted)?.as_bytes())?;
     Ok(format!("{}: the run of {} from 0 s to {stop} s, for any browser\n", file.display(), package.scene.name))
 }
 

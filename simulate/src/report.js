@@ -22,8 +22,14 @@ function digits(value) {
 
 // ---- Columns: what quantity they are, the unit they are shown in, their line.
 
-// Okabe and Ito's colours and two of Tol's: the left building in cold ones and solid lines, the right one in warm ones and
-// dashed lines, the top floor in those of the other pictures.
+// The buildings from left to right.
+const byName = new Map(run.buildings.map((building) => [building.name, building]));
+const names = [...byName.keys()];
+const isPair = names.length <= 2;
+
+// Okabe and Ito's colours and some of Tol's: of two the left building in cold ones and solid lines, the right one in warm ones
+// and dashed lines, the top floor in those of the other pictures; of more each in one, which after eight begin anew.
+const ROW_COLOURS = ["#0072B2", "#D55E00", "#332288", "#E69F00", "#882255", "#999933", "#661100", "#CC79A7"];
 const COLOURS = {
   left: ["#0072B2", "#56B4E9", "#009E73", "#332288"],
   right: ["#D55E00", "#E69F00", "#CC79A7", "#882255"],
@@ -33,7 +39,16 @@ const DASHES = {
   left: [[], [2, 3], [12, 3, 2, 3]],
   right: [[8, 4], [4, 3], [8, 3, 2, 3]],
   others: [[], [8, 4], [2, 3], [8, 3, 2, 3]],
+  row: [[], [8, 4], [2, 3], [8, 3, 2, 3], [12, 3, 2, 3, 2, 3]],
 };
+function paletteOf(of) {
+  const at = names.indexOf(of);
+  if (at < 0) return [COLOURS.others, DASHES.others];
+  if (!isPair) return [[ROW_COLOURS[at % ROW_COLOURS.length]], DASHES.row];
+  const side = ["left", "right"][at];
+  return [COLOURS[side], DASHES[side]];
+}
+const lineColour = (of) => paletteOf(of)[0][0];
 
 for (const column of run.columns) {
   const known = /^(\w+)(?:\[(\d+)\])?(?:\.(foundation\.)?(\w+)(?:\[(\d+)\])?)?$/;
@@ -89,11 +104,10 @@ const scaled = (value, unit) => (value === null ? null : value * shownIn(unit)[1
 
 // Colour and dash of a column among those that are drawn with it.
 function lineOf(column, drawn) {
-  const kind = column.of in COLOURS ? column.of : "others";
   // From the top floor down.
-  const same = kind === "others" ? drawn : drawn.filter((other) => other.of === kind).reverse();
+  const same = byName.has(column.of) ? drawn.filter((other) => other.of === column.of).reverse() : drawn;
   const place = same.indexOf(column);
-  const [colours, dashes] = [COLOURS[kind], DASHES[kind]];
+  const [colours, dashes] = paletteOf(column.of);
   const dash = dashes[Math.floor(place / colours.length) % dashes.length];
   return { stroke: colours[place % colours.length], dash };
 }
@@ -132,7 +146,7 @@ function nearest(chart, series, index) {
 
 // Its quantity stands above the chart.
 function shortName(column) {
-  return column.of in COLOURS || ["contact", "link"].includes(column.of) ? `${column.of} ${column.index || ""}`.trim() : column.name;
+  return byName.has(column.of) || ["contact", "link"].includes(column.of) ? `${column.of} ${column.index || ""}`.trim() : column.name;
 }
 
 function drawChart(quantity) {
@@ -238,18 +252,19 @@ function choose(columns, wanted) {
 
 function usual() {
   choose(run.columns, false);
-  const tops = ["left", "right"].map((side) => run.columns.filter((c) => c.of === side).map((c) => c.index));
-  const top = { left: Math.max(...tops[0]), right: Math.max(...tops[1]) };
+  const top = new Map(charted.map((name) => [name, byName.get(name).floors]));
   // Top floors, and those that can hit: of many, as many as lines can be told apart.
-  const facing = run.contacts.length <= 3 ? run.contacts : [run.contacts.at(-1)];
+  const between = run.contacts.filter((contact) => buildingsOf(contact).every((name) => top.has(name)));
+  const facing = between.length <= 3 ? between : [between.at(-1)];
   const largest = (quantity) =>
     [...(groups.get(quantity) ?? [])].sort((a, b) => b.largest - a.largest).slice(0, COLOURS.others.length);
   const ofOthers = ["contact force", "foundation displacement", "foundation rotation", "link force", "link displacement"];
   const others = ofOthers.flatMap(largest);
   const isShown = (c) =>
-    c.of in top && !c.quantity.startsWith("foundation")
+    byName.has(c.of) && !c.quantity.startsWith("foundation")
       ? ["displacement", "acceleration"].includes(c.quantity) &&
-        (c.index === top[c.of] || facing.some(({ row }) => row.some(([side, name]) => side === c.of && name === `displacement[${c.index}]`)))
+        top.has(c.of) &&
+        (c.index === top.get(c.of) || facing.some(({ row }) => row.some(([side, name]) => side === c.of && name === `displacement[${c.index}]`)))
       : others.includes(c);
   choose(run.columns.filter(isShown), true);
 }
@@ -294,6 +309,14 @@ const FIRST_ROWS = 300;
 let sorting = { by: START, down: false };
 let allRows = false;
 
+// Of more than two buildings those that were asked for, or those of the hardest impact; without any of the first contact.
+const buildingsOf = ({ left, right }) => [left.side, right.side].filter(Boolean);
+const charted = run.charted ?? (isPair ? names : buildingsOf(run.contacts[hardestOf(run.impacts)?.[0] - 1] ?? firstTwo()));
+
+function firstTwo() {
+  return run.contacts[0] ?? { left: { side: names[0] }, right: { side: names[1] } };
+}
+
 const largestOf = (impacts, by) => impacts.reduce((most, impact) => Math.max(most, impact[by]), 0);
 const sumOf = (impacts, by) => impacts.reduce((sum, impact) => sum + impact[by], 0);
 
@@ -324,11 +347,22 @@ function contactTable() {
 // The buildings at rest, as the page draws them: its colours in the light. Gaps are as wide as the floors move, or wider.
 function drawBuildings() {
   const canvas = element("buildings");
+  if (!isPair) canvas.style.maxWidth = "none";
   const [width, height, dense] = [canvas.clientWidth, canvas.clientHeight, devicePixelRatio];
   [canvas.width, canvas.height] = [width * dense, height * dense];
   const context = canvas.getContext("2d");
   context.scale(dense, dense);
-  const geometry = new Geometry({ layout: run });
+  if (!isPair) {
+    drawRow(context, width, height);
+    return;
+  }
+  // The drawing of the page calls them left and right.
+  const sides = names.map((name, at) => [name, ["left", "right"][at]]);
+  const named = (surface) => ({ ...surface, side: new Map(sides).get(surface.side) });
+  const called = (device) => ({ ...device, left: named(device.left), right: named(device.right) });
+  const [contacts, links] = [run.contacts.map(called), run.links.map(called)];
+  const layout = { ...Object.fromEntries(sides.map(([name, side]) => [side, byName.get(name)])), contacts, links };
+  const geometry = new Geometry({ layout });
   const moves = run.columns.filter((column) => column.quantity === "displacement").map((column) => column.largest);
   const colours = { ink: "#111", quiet: "#555", line: "#ddd", card: "#fff", "right-text": COLOURS.right[0] };
   [colours.left, colours.right] = [COLOURS.left[0], COLOURS.right[0]];
@@ -347,19 +381,19 @@ function peakTable() {
   const ofStoreys = ["peak drift", "peak drift ratio", "peak storey shear", "peak column force"];
   const quantities = [...ofStoreys, "peak displacement", "peak acceleration"];
   const last = (column) => (column ? scaled(column.values.at(-1), column.unit) : "");
-  const columns = ["left", "right"].flatMap((side) => {
+  const columns = charted.flatMap((side) => {
     const of = (quantity) => (groups.get(quantity) ?? []).filter((column) => column.of === side);
     const known = quantities.map(of).filter((peaks) => peaks.length > 0);
     const cells = known.map((peaks) => ({
       heading: withUnit(peaks[0].quantity.replace("peak", side), peaks[0].unit),
       cell: (index) => last(peaks.find((column) => column.index === index)),
     }));
-    const { floors, levels } = run[side];
+    const { floors, levels } = byName.get(side);
     const level = { heading: `${side} level`, cell: (index) => (index <= floors ? `${digits(levels[index])} m` : "") };
     return levels && known.length > 0 ? [level, ...cells] : cells;
   });
   element("peaks").hidden = columns.length === 0;
-  const storeys = columns.length > 0 ? Math.max(run.left.floors, run.right.floors) : 0;
+  const storeys = columns.length > 0 ? Math.max(...charted.map((side) => byName.get(side).floors)) : 0;
   const rows = Array.from({ length: storeys }, (_, i) => storeys - i);
   const cells = rows.map((index) => [index, ...columns.map(({ cell }) => cell(index))]);
   tableOf(element("peak-table"), ["storey, floor", ...columns.map(({ heading }) => heading)], cells);
@@ -369,14 +403,14 @@ function peakTable() {
 
 // The largest of each foundation, and by how much the soil slows its building.
 function foundationTable() {
-  const sides = ["left", "right"].filter((side) => run[side].foundation);
+  const sides = names.filter((side) => byName.get(side).foundation);
   const quantities = ["displacement", "rotation", "force", "moment"].map((what) => `foundation peak ${what}`);
   const known = quantities.map((quantity) => groups.get(quantity)).filter(Boolean);
   const headings = known.map(([{ quantity, unit }]) => withUnit(quantity.replace("foundation ", ""), unit));
   const rows = sides.map((side) => {
     const own = known.map((columns) => columns.find((column) => column.of === side));
     const cells = own.map((column) => (column ? scaled(column.values.at(-1), column.unit) : ""));
-    return [side, run[side].foundation.period_ratio, ...cells];
+    return [side, byName.get(side).foundation.period_ratio, ...cells];
   });
   element("foundations").hidden = sides.length === 0;
   tableOf(element("foundation-table"), ["foundation", "first period / on a fixed base", ...headings], rows);
@@ -424,11 +458,20 @@ function impactTable() {
 
 // ---- The page.
 
+// Rigid contacts have no force of an impact: there the impulse tells which was the hardest.
+function hardness() {
+  return run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N.s"] : [FORCE, "N"];
+}
+
+function hardestOf(impacts) {
+  const [by] = hardness();
+  return impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
+}
+
 function happened() {
   const count = run.impacts.length;
-  // Rigid contacts have no force of an impact: there the impulse tells which was the hardest.
-  const [by, unit] = run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N.s"] : [FORCE, "N"];
-  const hardest = run.impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
+  const [by, unit] = hardness();
+  const hardest = hardestOf(run.impacts);
   const end = run.collapse ? `; at ${digits(run.stop)} s ${run.collapse}` : "";
   const text = `0 s to ${digits(run.stop)} s: ${count} impact${count === 1 ? "" : "s"}`;
   if (!hardest) return `${text}${end}.`;

@@ -28,14 +28,17 @@ const DIGITS: usize = 6;
 
 const PAGE: &str = include_str!("report.html");
 /// What the page is put together from: marks in it, and what takes their place.
-const PARTS: [(&str, &str); 6] = [
+const PARTS: [(&str, &str); 7] = [
     ("/*uPlot.css*/", include_str!("uplot/uPlot.min.css")),
     ("/*report.css*/", include_str!("report.css")),
     ("@licence of uPlot@", include_str!("uplot/LICENSE")),
     ("/*uPlot.js*/", include_str!("uplot/uPlot.iife.min.js")),
+    ("/*report_row.js*/", include_str!("report_row.js")),
     ("/*report.js*/", include_str!("report.js")),
     ("/*report_loops.js*/", include_str!("report_loops.js")),
 ];
+/// Buildings of which charts show floors and storeys.
+const MOST_CHARTED: usize = 2;
 const DATA: &str = "/*data*/";
 /// The modules with which the browser page draws the buildings, each after those that it imports; and their mark.
 const DRAWING: [&str; 4] = [
@@ -51,6 +54,8 @@ const DRAWN: &str = "/*drawing*/";
 struct Run<'a> {
     #[serde(flatten)]
     layout: Layout<'a>,
+    /// Names of the buildings that charts begin with; without, the page chooses.
+    charted: Option<Vec<&'a str>>,
     description: &'a str,
     scene: &'a str,
     /// s, the time of the last row.
@@ -90,19 +95,30 @@ pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
 /// # Errors
 /// What keeps the run from its end.
 pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Result<String, Box<dyn Error>> {
+    page_about(package, model, stop, events, None)
+}
+
+/// The page whose charts begin with these buildings.
+///
+/// # Errors
+/// What keeps the run from its end.
+pub fn page_about(
+    package: &Package,
+    model: &Model,
+    stop: f64,
+    events: &Events,
+    charted: Option<Vec<&str>>,
+) -> Result<String, Box<dyn Error>> {
     let Package { scene, scene_text, .. } = package;
     let (times, columns) = columns(scene, model, stop, events)?;
     let run = Run {
         layout: Layout::of(scene),
+        charted,
         description: &scene.description,
         scene: scene_text,
         stop: times.last().copied().unwrap_or(stop),
         collapse: events.collapse.map(|Collapse { building: id, storey, .. }| {
-            format!(
-                "storey {} of the {} building collapsed, and the run ends there",
-                storey + 1,
-                scene.building(id).name
-            )
+            format!("storey {} of {} collapsed, and the run ends there", storey + 1, scene.building(id).called())
         }),
         times,
         columns,
@@ -111,6 +127,23 @@ pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Res
     let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
     let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
     Ok(page.replacen(DRAWN, &script(&DRAWING), 1).replacen(DATA, &data, 1))
+}
+
+/// The buildings that are asked for, in the order of the scene.
+///
+/// # Errors
+/// A name that the scene does not have, and which it has; more names than charts have room for.
+pub fn charted<'a>(scene: &'a Scene, wanted: &[String]) -> Result<Option<Vec<&'a str>>, String> {
+    let names: Vec<&str> = scene.buildings.iter().map(|building| &*building.name).collect();
+    let among = format!("expected one or two of {}", names.join(", "));
+    if let Some(name) = wanted.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(format!("--buildings {name}: the scene has no such building; {among}"));
+    }
+    if wanted.len() > MOST_CHARTED {
+        return Err(format!("--buildings {}: {among}", wanted.join(" ")));
+    }
+    let chosen: Vec<&str> = names.into_iter().filter(|name| wanted.iter().any(|wanted| wanted == name)).collect();
+    Ok(Some(chosen).filter(|chosen| !chosen.is_empty()))
 }
 
 /// Modules as one script: without their imports and exports.

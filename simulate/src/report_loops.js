@@ -6,7 +6,7 @@ const LOOP = { width: 320, height: 230, left: 56, right: 10, top: 10, bottom: 34
 
 // The top storey first, as in the other tables.
 const yieldingStoreys = [...(groups.get("storey shear") ?? [])];
-yieldingStoreys.sort((a, b) => a.of.localeCompare(b.of) || b.index - a.index);
+yieldingStoreys.sort((a, b) => names.indexOf(a.of) - names.indexOf(b.of) || b.index - a.index);
 
 function columnOf(quantity, side, index) {
   return (groups.get(quantity) ?? []).find((column) => column.of === side && column.index === index);
@@ -45,7 +45,7 @@ function driftOf(shear) {
   const below = index > 1 ? columnOf("displacement", of, index - 1) : columnOf("foundation displacement", of, 0);
   const columns = [columnOf("displacement", of, index), below, columnOf("foundation rotation", of, 0)];
   const [above, under, rotation] = columns.map((column) => (column ? valuesAt(times, column) : times.map(() => 0)));
-  const height = columns[2] ? run[of].levels[index] - run[of].levels[index - 1] : 0;
+  const height = columns[2] ? byName.get(of).levels[index] - byName.get(of).levels[index - 1] : 0;
   return above.map((value, at) => value - under[at] - height * rotation[at]);
 }
 
@@ -84,7 +84,7 @@ function drawLoops(place, caption, displacements, force, titles, stroke) {
 function loopsOfStorey(shear) {
   const ductility = columnOf("ductility", shear.of, shear.index)?.values.at(-1);
   const caption = `${shear.of} storey ${shear.index}: ductility ${digits(Number(ductility?.toPrecision(3)))}`;
-  drawLoops("loops", caption, driftOf(shear), shear, ["drift", "shear"], COLOURS[shear.of][0]);
+  drawLoops("loops", caption, driftOf(shear), shear, ["drift", "shear"], lineColour(shear.of));
 }
 
 function loopsOfLink({ meeting, parts }, at) {
@@ -103,7 +103,7 @@ function offer(section, isThere) {
 offer("yielding", yieldingStoreys.length > 0);
 const storeyRows = yieldingStoreys.map(({ of, index }) => ({ of, index, cells: [`${of} ${index}`] }));
 tableAtTheEnd("yielding-table", ["storey"], AT_THE_END, storeyRows);
-yieldingStoreys.forEach(loopsOfStorey);
+yieldingStoreys.filter(({ of }) => charted.includes(of)).forEach(loopsOfStorey);
 
 offer("links", run.links.length > 0);
 const linkRows = run.links.map(({ meeting, parts }, at) => {

@@ -108,6 +108,11 @@ pub(crate) fn names(scene: Option<&Scene>) -> impl Iterator<Item = &str> + Clone
     of_scene.chain(["left", "right"].into_iter().filter(move |_| scene.is_none()))
 }
 
+/// So many buildings have a line for each of their floors and contacts.
+const MOST_IN_FULL: usize = 12;
+/// So many contacts have a line where there are more buildings.
+const MOST_CONTACTS: usize = 20;
+
 /// The run by the names of the FMU's variables. What an FMU does not have is left out.
 struct Run<'a>(&'a Outcome, Option<&'a Scene>);
 
@@ -148,9 +153,10 @@ impl Run<'_> {
     fn collapse(&self) -> Option<String> {
         let last = |name: String| self.seen(&name).map(|seen| seen.last);
         let side = self.names().find(|side| last(format!("{side}.collapsed")) == Some(1.0))?;
+        let called = self.building(side).map_or_else(|| format!("the {side} building"), Building::called);
         let time = six_decimals(last(format!("{side}.collapse_time"))?);
         let storey = self.fallen(side).map_or("a storey".to_owned(), |storey| format!("storey {storey}"));
-        Some(format!("{storey} of the {side} building collapsed at {time} s; the run ends there"))
+        Some(format!("{storey} of {called} collapsed at {time} s; the run ends there"))
     }
 
     /// The storey of a building that has come nearest to the drift of its collapse, counted from 1.
@@ -171,7 +177,62 @@ impl Run<'_> {
         self.1?.buildings.iter().find(|building| building.name == side)
     }
 
+    /// Whether there are so many buildings that a line for each floor and each contact would be a book.
+    fn is_long(&self) -> bool {
+        self.names().count() > MOST_IN_FULL
+    }
+
+    /// Of a long row a line for each building, the largest of all of its floors.
+    fn buildings_in_brief(&self) -> Option<Table> {
+        let known = |name: &str, pick: fn(Seen) -> f64| {
+            let values = self.array(name).map(pick);
+            values.reduce(f64::max).map_or(String::new(), digits)
+        };
+        let peak: fn(Seen) -> f64 = |seen| seen.last;
+        let read: fn(Seen) -> f64 = |seen| seen.largest;
+        let (prefix, pick) = if self.has_peaks() { ("peak_", peak) } else { ("", read) };
+        let of_peaks = [("storey drift", "m", "drift"), ("over its height", "", "drift_ratio")];
+        let of_all = [("displacement", "m", "displacement"), ("acceleration", "m/s2", "acceleration")];
+        let shown: Vec<_> = of_all.into_iter().chain(of_peaks.into_iter().filter(|_| self.has_peaks())).collect();
+        let headings = shown.iter().map(|(heading, _, _)| match *heading {
+            "over its height" => (*heading).to_owned(),
+            _ => format!("{} {heading}", if self.has_peaks() { "peak" } else { "largest" }),
+        });
+        let headings: Vec<String> = headings.collect();
+        let mut columns = vec![("building", ""), ("floors", "")];
+        columns.extend(headings.iter().zip(&shown).map(|(heading, (_, unit, _))| (heading.as_str(), *unit)));
+        let mut table = Table::new(&columns);
+        for side in self.names() {
+            let mut row = vec![side.to_owned(), self.count(&format!("{side}.displacement")).to_string()];
+            row.extend(shown.iter().map(|(_, _, quantity)| known(&format!("{side}.{prefix}{quantity}"), pick)));
+            table.row(row);
+        }
+        table.unless_empty()
+    }
+
+    /// The contacts that the summary tells of: of a long row those with the largest forces, or impulses where all are rigid.
+    fn told_contacts(&self) -> Vec<usize> {
+        let all = 1..=self.count_contacts();
+        if !self.is_long() {
+            return all.collect();
+        }
+        let last =
+            |contact: usize, what: &str| self.seen(&format!("contact[{contact}].{what}")).map_or(0.0, |s| s.last);
+        let mut hit: Vec<(f64, f64, usize)> = all
+            .map(|p| (last(p, "peak_force"), last(p, "impulse"), p))
+            .filter(|(_, impulse, _)| *impulse != 0.0)
+            .collect();
+        hit.sort_by(|one, other| other.0.total_cmp(&one.0).then(other.1.total_cmp(&one.1)));
+        hit.truncate(MOST_CONTACTS);
+        let mut told: Vec<usize> = hit.into_iter().map(|(_, _, contact)| contact).collect();
+        told.sort_unstable();
+        told
+    }
+
     fn floors(&self) -> Option<Table> {
+        if self.is_long() {
+            return self.buildings_in_brief();
+        }
         let heading = |quantity: &str| format!("{} {quantity}", if self.has_peaks() { "peak" } else { "largest" });
         let headings = [heading("displacement"), heading("acceleration")];
         let mut columns = vec![("floor", "")];
@@ -257,15 +318,15 @@ impl Run<'_> {
     }
 
     fn contacts(&self) -> Option<Table> {
-        let contacts = 1..=self.count_contacts();
+        let contacts = self.told_contacts();
         let last =
             |contact: usize, quantity: &str| self.seen(&format!("contact[{contact}].{quantity}")).map(|s| s.last);
-        let scale = |quantity, unit| Scale::of(unit, contacts.clone().filter_map(|contact| last(contact, quantity)));
+        let scale = |quantity, unit| Scale::of(unit, contacts.iter().filter_map(|contact| last(*contact, quantity)));
         let scaled = [("peak_force", "N"), ("impulse", "N s"), ("dissipated_energy", "J")];
         let scales = scaled.map(|(quantity, unit)| scale(quantity, unit));
         let meeting = |contact: usize| Some(self.1?.contacts.get(contact - 1)?.brief(self.1?));
         let mut table = Table::new(&[
-            ("contact", ""),
+            (if self.is_long() { "hardest contacts" } else { "contact" }, ""),
             ("gap", "m"),
             ("impacts", ""),
             ("peak force", &scales[0].unit),
@@ -273,7 +334,7 @@ impl Run<'_> {
             ("impulse", &scales[1].unit),
             ("dissipated", &scales[2].unit),
         ]);
-        for contact in contacts.clone() {
+        for contact in contacts.iter().copied() {
             let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
             let scaled = |k: usize| last(contact, scaled[k].0).map_or(String::new(), |value| scales[k].cell(value));
             let gap = self.seen(&format!("contact[{contact}].gap"));

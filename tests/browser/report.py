@@ -51,6 +51,33 @@ mass = 90
 inertia = 2000
 rocking = { stiffness = 12e6 }
 """
+# Three buildings, of which the last two meet hardest, and a wall before the first one.
+ROW = f"""name = "Row"
+description = ""
+stop_time = 10.0
+[ground]
+record = "{ROOT}/examples/records/el_centro_1940_ns.csv"
+[facing]
+gap = [0.3, 0.005]
+law = "linear"
+stiffness = 5e8
+[[contact]]
+right = "corner"
+right_floor = 1
+wall = "left"
+gap = 0.06
+law = "linear"
+stiffness = 5e8
+""" + "".join(
+    f"""[[building]]
+name = "{name}"
+mass = {[15e4] * floors}
+stiffness = {[stiffness] * floors}
+damping = {{ ratio = 0.05 }}
+height = {[3.2] * floors}
+"""
+    for name, floors, stiffness in [("corner", 2, 9e7), ("middle", 4, 9e7), ("tail", 3, 4e7)]
+)
 # The example ends with its outputs.
 NO_PEAKS = "peaks = false\n"
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
@@ -73,15 +100,23 @@ def main():
             page.goto(html.as_uri())
             look(page, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
+        html, _, impacts = report_of("row", ROW)
+        page.goto(html.as_uri())
+        stands_in_a_row(page, impacts)
+        print("stands in a row: well")
         assert not troubles, troubles
         print("nothing loaded, no error")
 
 
 def make_report(name, more=""):
     """The report of an example with a description that would like to be markup, and more keys; its text and its impacts."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
     text = (SCENES / f"{name}.toml").read_text().replace("../records", str(ROOT / "examples/records"))
-    text = re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text) + more
+    return report_of(name, re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text) + more)
+
+
+def report_of(name, text):
+    """The report of a scene, its text and its impacts."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
     scene, html, impacts = (FOLDER / f"{name}.{ending}" for ending in ["toml", "html", "csv"])
     scene.write_text(text)
     subprocess.run([*SIMULATE, scene, "--html", html, "--impacts", impacts], cwd=ROOT, check=True, stdout=sys.stderr)
@@ -250,6 +285,22 @@ def stands_alone(page, impacts):
     page.screenshot(path=FOLDER / "alone.png", full_page=True)
 
 
+def stands_in_a_row(page, impacts):
+    """All buildings drawn, each in its colour; charts and table of the two that meet hardest, by their names."""
+    hardest = max(impacts, key=lambda impact: float(impact["peak_force"]))
+    (meeting,) = (row[1] for row in table(page, "contact")[1] if row[0] == hardest["contact"])
+    assert "middle floor" in meeting and "tail floor" in meeting
+    pixels = drawn(page)
+    assert min(pixels["left"], pixels["right"], pixels["third"]) > 1000, pixels
+    headings, rows = table(page, "peak")
+    assert len(rows) == 4 and "tail level" in headings and not any("corner" in heading for heading in headings)
+    labels = page.locator(".chart").first.locator(".u-legend .u-label").all_inner_texts()
+    assert {label.split()[0] for label in labels[1:]} == {"middle", "tail"}, labels
+    assert all(name in page.locator("#peak-shears").inner_text() for name in ("corner", "middle", "tail"))
+    assert not re.search(r"NaN|undefined|null|Infinity", page.locator("body").inner_text())
+    page.locator("#buildings").screenshot(path=FOLDER / "row.png")
+
+
 def yields(page, impacts):
     """Storeys that can yield: a row each, and a loop within its axes that is as wide as the drifts are."""
     headings, rows = table(page, "yielding")
@@ -272,11 +323,11 @@ def yields(page, impacts):
 
 
 def drawn(page):
-    """How many pixels of the picture of the buildings have the colour of the left one, of the right one and of links."""
+    """How many pixels of the picture of the buildings have the colour of the left one, of the right one, of a third one and of links."""
     return page.evaluate("""() => {
         const canvas = document.getElementById("buildings");
         const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-        const colours = { left: [0, 114, 178], right: [213, 94, 0], ink: [17, 17, 17] };
+        const colours = { left: [0, 114, 178], right: [213, 94, 0], third: [51, 34, 136], ink: [17, 17, 17] };
         const is = (at, colour) => data[at + 3] === 255 && colour.every((part, i) => Math.abs(data[at + i] - part) < 8);
         const starts = Array.from({ length: data.length / 4 }, (_, pixel) => 4 * pixel);
         const count = (colour) => starts.filter((at) => is(at, colour)).length;

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _native
 from .._batch import simulate_batch
-from .._scenes import SceneWarning, path_of, read_scene, refuse, variables_of
+from .._scenes import SceneWarning, path_of, read_scene, refuse, unknown, variables_of
 from ..study.records import label, named, offset_of, read_records
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.float64]
 
+ENDS = ("left", "right")  # of a gap or a link
 FAR = 1e3  # m
 TOLERANCE = 1e-6  # m
 AT_ONCE = 8  # gaps that divide each interval
@@ -67,6 +68,10 @@ class RequiredGap:
     """the gap that has it"""
     collapsed: str | None = None
     """the building, or "left and right", that collapses without contact: all of the above is until then"""
+    between: str | None = None
+    """of a row: the two neighbours, "corner, middle", or a building and a wall; None where the gap is that of all contacts"""
+    force_factor: float | None = None
+    """of a row: by which all gaps of the scene are multiplied for `force_gap`"""
 
 
 @dataclass(frozen=True)
@@ -74,7 +79,7 @@ class Cost:
     """What a gap costs, in the worst of all ground motions."""
 
     gap: float
-    """m"""
+    """m; of a row the share of the gap that each two neighbours need"""
     pounding: int
     """ground motions in which the buildings meet"""
     impacts: int
@@ -82,6 +87,20 @@ class Cost:
     """N"""
     drift_ratios: dict[str, float]
     """of each building the largest ratio of a storey's drift to that without contact"""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What is between two neighbours, or between a building and a wall beside it."""
+
+    ends: tuple[str | None, str | None]
+    """the buildings on the left and on the right; None is a wall"""
+    contacts: list[int]
+    """counted from 1"""
+
+    @property
+    def name(self) -> str:
+        return ", ".join(end or "wall" for end in self.ends)
 
 
 class Motion:
@@ -110,23 +129,29 @@ class Search:
         force: float | None,
         threads: int | None,
         progress: Callable[[int, int], object] | None,
+        between: Sequence[str] | None = None,
     ) -> None:
         self.scene, self.force, self.threads, self.progress = scene, force, threads, progress
         read, path = read_scene(scene), path_of(scene)
         where = f"{path}: " if path else ""
-        self.warnings, self.modes, self.layout = read.warnings(), read.first_modes(), json.loads(read.layout())
+        self.warnings, self.layout = read.warnings(), json.loads(read.layout())
+        self.buildings = read.buildings()
+        self.modes = dict(zip(self.buildings, read.first_modes()))
         self.is_linked = bool(self.layout["links"])
-        self.is_joined = any(link["left"]["kind"] == link["right"]["kind"] == "floor" for link in self.layout["links"])
+        self.joints = joints_of(self.layout)
+        self.joint = None if between is None else between_of(self.joints, self.buildings, list(between), where)
         self.motions = _motions(read, where, records, None if pga is None else [float(value) for value in pga])
         self.names = list(variables_of(read))
-        self.contacts = range(1, len(self.layout["contacts"]) + 1)
-        self.on_soil = any(self.layout[side]["foundation"] for side in ("left", "right"))
+        # Those whose gap is varied; others stay as in the scene.
+        self.contacts: Sequence[int] = range(1, len(self.layout["contacts"]) + 1) if self.joint is None else self.joint.contacts
+        self.founded = {building["name"] for building in self.layout["buildings"] if building["foundation"]}
+        self.on_soil = bool(self.founded)
         of_row = (".peak_displacement[", ".foundation.peak_displacement", ".foundation.peak_rotation")
         self.peaks = [name for name in self.names if any(part in name for part in of_row)]
         self.falls = [name for name in self.names if name.endswith(".collapsed")]
         self.drifts = {
             side: names
-            for side in ("left", "right")
+            for side in self.buildings
             if (names := [name for name in self.names if name.startswith(f"{side}.peak_drift[")])
         }
         found = [f"{where}expected a scene with contacts"] * (not self.contacts)
@@ -135,61 +160,82 @@ class Search:
             found += [f"force = {force!r}: expected a number of N > 0"] * (not 0.0 < force < math.inf)
             rigid = [p for p in self.contacts if f"contact[{p}].stiffness" not in self.names]
             found += [f"force: contact[{p}] is stereomechanical, whose impacts have an impulse and no force" for p in rigid]
-        refuse(found)
+        refuse([*found, *self.more_problems()])
         self.done = 0
+
+    def more_problems(self) -> list[str]:
+        """What else is wrong."""
+        return []
 
     def run(self) -> list[RequiredGap]:
         """Of each ground motion the gap that it needs, and what rules say."""
         import numpy as np
 
         count = len(self.motions)
-        apart = self._ends(np.full((count, 1), FAR), self.peaks + self.falls)[:, 0]
+        apart = self._ends(self._all(np.full((count, 1), FAR)), self.peaks + self.falls)[:, 0]
         peaks, fallen = np.split(apart, [len(self.peaks)], axis=1)
-        collapsed = [[name.split(".")[0] for name, fell in zip(self.falls, of) if fell] for of in fallen]
-        rules = [self._rules(dict(zip(self.peaks, of))) for of in peaks]
+        collapsed = [self._collapsed(of) for of in fallen]
+        rules = [self._rules(dict(zip(self.peaks, of)), self.contacts) for of in peaks]
         # The buildings cannot come nearer than by what either of them moves.
         widest = np.array([rule["absolute_sum"] for rule in rules]) * (1 + 1e-9)
         impacts = [f"contact[{p}].impacts" for p in self.contacts]
-        needed = self._enclose(np.zeros(count), widest, lambda gaps: self._ends(gaps, impacts).max(axis=2) > 0)
-        first = self._ends(np.maximum(needed - 2 * TOLERANCE, 0.0)[:, None], impacts)[:, 0]
-        closes = [int(np.argmax(of)) + 1 if of.any() else None for of in first]
+        needed = self._enclose(np.zeros(count), widest, lambda gaps: self._ends(self._all(gaps), impacts).max(axis=2) > 0)
+        first = self._ends(self._all(np.maximum(needed - 2 * TOLERANCE, 0.0)[:, None]), impacts)[:, 0]
+        closes = [self.contacts[int(np.argmax(of))] if of.any() else None for of in first]
         forces: list[dict[str, Any]] = [{} for _ in range(count)]
         if self.force is not None:
-            forces = [dict(of) for of in self._forces(needed, self.force)]
+            forces = [dict(of) for of in self._forces(needed, self.force, self._all)]
         for more, sides in zip(forces, collapsed):
-            more["collapsed"] = " and ".join(sides) or None
+            more["collapsed"] = sides
+            more["between"] = self.joint and self.joint.name
         found: Any = zip(self.motions, needed.tolist(), closes, rules, forces)
         return [RequiredGap(of.name, of.pga, gap, contact, **rule, **more) for of, gap, contact, rule, more in found]
 
-    def _forces(self, needed: Numbers, limit: float) -> list[dict[str, float]]:
-        """From which gap on the force stays below the limit, and the largest force that was found."""
+    def _all(self, gaps: Numbers) -> dict[int, Numbers]:
+        """All contacts that are varied, with these gaps."""
+        return dict.fromkeys(self.contacts, gaps)
+
+    def _collapsed(self, fallen: Iterable[float]) -> str | None:
+        return " and ".join(name.split(".")[0] for name, fell in zip(self.falls, fallen) if fell) or None
+
+    def _forces(
+        self, needed: Numbers, limit: float, at: Callable[[Numbers], Mapping[int, Numbers]], tolerance: float = TOLERANCE
+    ) -> list[dict[str, float]]:
+        """From which gap on the force stays below the limit, and the largest force that was found; `at` says what a gap, or a
+        factor on gaps, is for each contact."""
         import numpy as np
 
         gaps = needed[:, None] * np.linspace(0.0, 1.0, SCAN)
-        forces = self._largest_force(gaps)
+        forces = self._largest_force(at(gaps))
         exceeds = forces > limit
         # With the widest gap there is no contact: where a gap exceeds the limit there is one above it.
         last = np.where(exceeds.any(axis=1), SCAN - 1 - np.argmax(exceeds[:, ::-1], axis=1), 0)
         each = np.arange(len(needed))
         intervals = gaps[each, last], gaps[each, last + 1]
-        refined = self._enclose(*intervals, lambda tried: self._largest_force(tried) > limit)
+        refined = self._enclose(*intervals, lambda tried: self._largest_force(at(tried)) > limit, tolerance)
         hardest = np.argmax(forces, axis=1)
         return [
-            {"force_gap": float(refined[i]), "hardest_force": float(forces[i, at]), "hardest_gap": float(gaps[i, at])}
-            for i, at in enumerate(hardest)
+            {"force_gap": float(refined[i]), "hardest_force": float(forces[i, most]), "hardest_gap": float(gaps[i, most])}
+            for i, most in enumerate(hardest)
         ]
 
-    def _largest_force(self, gaps: Numbers) -> Numbers:
+    def _largest_force(self, gaps: Mapping[int, Numbers]) -> Numbers:
         forces: Numbers = self._ends(gaps, [f"contact[{p}].peak_force" for p in self.contacts]).max(axis=2)
         return forces
 
-    def _enclose(self, low: Numbers, high: Numbers, is_bad: Callable[[Numbers], NDArray[np.bool_]]) -> Numbers:
+    def _enclose(
+        self,
+        low: Numbers,
+        high: Numbers,
+        is_bad: Callable[[Numbers], NDArray[np.bool_]],
+        tolerance: float = TOLERANCE,
+    ) -> Numbers:
         """The gaps from which on nothing that was tried is bad: `low` where it is not, else below `high`, which is not."""
         import numpy as np
 
         each, shares = np.arange(len(low)), np.arange(1, AT_ONCE + 1) / (AT_ONCE + 1)
         high = np.where(is_bad(low[:, None])[:, 0], high, low)
-        while (high - low).max() > TOLERANCE:
+        while (high - low).max() > tolerance:
             tried = low[:, None] + (high - low)[:, None] * shares
             bad = is_bad(tried)
             last = np.where(bad.any(axis=1), AT_ONCE - np.argmax(bad[:, ::-1], axis=1), 0)
@@ -197,15 +243,16 @@ class Search:
             low, high = bounds[each, last], bounds[each, last + 1]
         return high
 
-    def _ends(self, gaps: Numbers, outputs: Sequence[str]) -> Numbers:
-        """The outputs at the end of each ground motion (first index) with each of its gaps (second index)."""
+    def _ends(self, gaps: Mapping[int, Numbers], outputs: Sequence[str]) -> Numbers:
+        """The outputs at the end of each ground motion (first index) with each of its gaps (second index), by contacts."""
         import numpy as np
 
-        ends = np.empty((*gaps.shape, len(outputs)))
+        count, tried = next(iter(gaps.values())).shape
+        ends = np.empty((count, tried, len(outputs)))
         for stop in dict.fromkeys(motion.stop for motion in self.motions):
-            which = [i for i, motion in enumerate(self.motions) if motion.stop == stop for _ in range(gaps.shape[1])]
+            which = [i for i, motion in enumerate(self.motions) if motion.stop == stop for _ in range(tried)]
             rows = sorted(set(which))
-            parameters: dict[str, Any] = dict.fromkeys((f"contact[{p}].gap" for p in self.contacts), gaps[rows].ravel())
+            parameters: dict[str, Any] = {f"contact[{p}].gap": of[rows].ravel() for p, of in gaps.items()}
             parameters["ground.scale"] = [self.motions[i].scale for i in which]
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SceneWarning)
@@ -218,7 +265,7 @@ class Search:
                     stop=stop,
                     progress=self._tell,
                 )
-            ends[rows] = found.reshape(len(rows), gaps.shape[1], len(outputs))
+            ends[rows] = found.reshape(len(rows), tried, len(outputs))
             self.done += len(which)
         return ends
 
@@ -233,43 +280,87 @@ class Search:
         by_force = SCAN + AT_ONCE * math.ceil(rounds - math.log(SCAN) / math.log(AT_ONCE + 1))
         return len(self.motions) * (search + (by_force if self.force is not None else 0))
 
-    def _rules(self, peaks: Mapping[str, float]) -> dict[str, float | None]:
-        """What rules say, by the largest displacements of the floors that meet; between floors at most their mean."""
+    def _rules(self, peaks: Mapping[str, float], contacts: Iterable[int]) -> dict[str, float | None]:
+        """What rules say of these contacts between two buildings and with walls, by the largest displacements of the floors that
+        meet; between floors at most their mean."""
+        of_contacts = [self.layout["contacts"][p - 1] for p in contacts]
         pairs = []
-        for contact in self.layout["contacts"]:
-            moves = {"left": 0.0, "right": 0.0}
+        for contact in of_contacts:
+            moves = {end: 0.0 for end in ENDS}
+            ends = {contact[end].get("side"): end for end in ENDS}
             for side, name, weight in contact["row"]:
                 *of, quantity = name.split(".")
-                moves[side] += abs(weight) * peaks[".".join([side, *of, f"peak_{quantity}"])]
+                moves[ends[side]] += abs(weight) * peaks[".".join([side, *of, f"peak_{quantity}"])]
             pairs.append((moves["left"], moves["right"]))
-        left, right = self.modes
-        rho = correlation(left, right) if left and right else 0.0
-        srss = None if self.is_joined else max(math.hypot(a, b) for a, b in pairs)
-        kinds = {contact[side]["kind"] for contact in self.layout["contacts"] for side in ("left", "right")}
+        sides = [name for name in self.buildings if any(name in sides_of(contact) for contact in of_contacts)]
+        modes = [self.modes[side] for side in sides]
+        rho = correlation(modes[0], modes[1]) if len(modes) == 2 and modes[0] and modes[1] else 0.0
+        links = [set(sides_of(link)) for link in self.layout["links"]]
+        srss = None if {*sides} in [link for link in links if len(link) == 2] else max(math.hypot(a, b) for a, b in pairs)
+        kinds = {contact[end]["kind"] for contact in of_contacts for end in ENDS}
+        are_alone = not any(link & {*sides} for link in links) and not self.founded & {*sides}
         return {
             "absolute_sum": max(a + b for a, b in pairs),
             "srss": srss,
             "eurocode": EUROCODE * srss if srss is not None and kinds == {"floor"} else None,
-            "ddc": None if self.is_linked or self.on_soil else max(difference(a, b, rho) for a, b in pairs),
+            "ddc": max(difference(a, b, rho) for a, b in pairs) if are_alone else None,
         }
+
+    def costs_of(self, rows: Sequence[RequiredGap]) -> list[Cost]:
+        """What smaller gaps cost than those that are needed."""
+        widest = max(row.gap for row in rows)
+        return self.costs(widest) if widest > 0 else []
 
     def costs(self, widest: float) -> list[Cost]:
         """What gaps cost that are shares of this one, in all ground motions."""
+        return self._costs([share * widest for share in SHARES], self._all)
+
+    def _costs(self, gaps: Sequence[float], at: Callable[[Numbers], Mapping[int, Numbers]]) -> list[Cost]:
         import numpy as np
 
         count = len(self.motions)
-        gaps = [share * widest for share in SHARES]
         names = list(itertools.chain(*self.drifts.values()))
-        outputs = ["impacts", *names, *(f"contact[{p}].peak_force" for p in self.contacts)]
-        ends = self._ends(np.tile([FAR, *gaps], (count, 1)), outputs)
-        drifts = dict(zip(names, np.moveaxis(ends[:, 1:, 1 : 1 + len(names)] / ends[:, :1, 1 : 1 + len(names)], 2, 0)))
+        of_contacts = [f"contact[{p}].{what}" for what in ("impacts", "peak_force") for p in self.contacts]
+        outputs = [*names, *of_contacts]
+        ends = self._ends(at(np.tile([FAR, *gaps], (count, 1))), outputs)
+        drifts = dict(zip(names, np.moveaxis(ends[:, 1:, : len(names)] / ends[:, :1, : len(names)], 2, 0)))
         found = []
         for i, gap in enumerate(gaps):
-            at = ends[:, i + 1]
+            of_gap = ends[:, i + 1]
             ratios = {side: float(max(drifts[name][:, i].max() for name in of)) for side, of in self.drifts.items()}
-            impacts, force = at[:, 0], float(at[:, 1 + len(names) :].max())
+            of_each, forces = np.split(of_gap[:, len(names) :], 2, axis=1)
+            impacts, force = of_each.sum(axis=1), float(forces.max())
             found.append(Cost(gap, int((impacts > 0).sum()), int(impacts.max()), force, ratios))
         return found
+
+
+def sides_of(meeting: Mapping[str, Any]) -> list[str]:
+    """The names of the buildings of a contact or a link."""
+    return [meeting[end]["side"] for end in ENDS if meeting[end]["kind"] != "wall"]
+
+
+def joints_of(layout: Mapping[str, Any]) -> list[Joint]:
+    """What is between all neighbours, and the walls, in the order of their first contacts."""
+    found: dict[tuple[str | None, str | None], list[int]] = {}
+    for p, contact in enumerate(layout["contacts"], 1):
+        left, right = (contact[end].get("side") for end in ENDS)
+        found.setdefault((left, right), []).append(p)
+    return [Joint(ends, contacts) for ends, contacts in found.items()]
+
+
+def between_of(joints: Iterable[Joint], buildings: Sequence[str], names: list[str], where: str) -> Joint:
+    """What is between two buildings that are named in any order."""
+    missing = [name for name in names if name not in buildings]
+    among = f"expected two neighbours of {', '.join(buildings)}"
+    refuse([f"between: {unknown(name, buildings, 'the scene has no such building')}; {among}" for name in missing])
+    places = sorted(buildings.index(name) for name in names)
+    if len(places) != 2 or places[1] - places[0] != 1:
+        raise ValueError(f"between = {' '.join(names)}: {among}")
+    ends = tuple(buildings[place] for place in places)
+    found = next((joint for joint in joints if joint.ends == ends), None)
+    if found is None:
+        raise ValueError(f"{where}between = {' '.join(names)}: expected a scene with a contact there")
+    return found
 
 
 def difference(a: float, b: float, rho: float) -> float:

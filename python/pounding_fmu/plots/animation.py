@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,11 +19,11 @@ from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from .._terminal import Progress
-from .elevation import Elevation, inner_edges, prepare_height
+from .elevation import Elevation, gaps_at, prepare_height
 from .pictures import counted
 from .runs import Run, Runs
 from .soil import Foot
-from .style import BLACK, BUILDINGS, LOOK, YELLOW
+from .style import BLACK, LOOK, YELLOW
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 FRAMES_PER_SECOND = 20  # a GIF counts in hundredths of a second
 AFTERGLOW = 4  # frames that an impact stays to be seen: it may last a part of one
 COLOURS = 24  # of the palette: plain areas need few, and few make small files
+MORE, MOST = 0.9, 8  # inches for each building from the third on, for so many of them
 
 
 def film_file(path: Path) -> Path:
@@ -55,7 +57,7 @@ def write(path: Path, runs: Runs, speed: float) -> int:
         if path.suffix.lower() == ".mp4":
             write_mp4(path, frames)
         else:
-            write_gif(path, frames, palette_of(stage.loudest(step)))
+            write_gif(path, frames, palette_of(stage.loudest(step), COLOURS if runs.scene.is_pair else 2 * COLOURS))
     return len(times)
 
 
@@ -96,11 +98,11 @@ def write_mp4(path: Path, frames: Iterator[NDArray[Any]]) -> None:
         raise RuntimeError(f"{path}: ffmpeg could not write it: {said or coder.returncode}")
 
 
-def palette_of(pixels: NDArray[Any]) -> Image.Image:
+def palette_of(pixels: NDArray[Any], colours: int) -> Image.Image:
     """The colours of a picture, and the stars' own, however small they are in it."""
     yellow = np.array([round(255 * part) for part in to_rgb(YELLOW)], dtype=np.uint8)
     band = np.broadcast_to(yellow, (20, *pixels.shape[1:]))
-    return Image.fromarray(np.concatenate([pixels, band])).quantize(COLOURS, dither=Image.Dither.NONE)
+    return Image.fromarray(np.concatenate([pixels, band])).quantize(colours, dither=Image.Dither.NONE)
 
 
 def feet_of(run: Run, side: str) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -114,6 +116,7 @@ class Stage:
     """The buildings, and their tops over time, at one instant after another."""
 
     def __init__(self, runs: Runs) -> None:
+        self.runs = runs
         scene, run = self.scene, self.run = runs.scene, runs.run
         self.seen = run.rows(*runs.window)
         # mm, a row for each floor.
@@ -124,10 +127,12 @@ class Stage:
         # mm and rad.
         self.feet = {side: feet_of(run, side) for side in scene.foundations}
         reach = max(np.abs(rows[:, self.seen]).max() for rows in self.motion.values())
-        self.figure = Figure(figsize=(5.2, 4.6), dpi=100)
+        wide = 5.2 + MORE * min(max(0, len(scene.names) - 2), MOST)
+        self.figure = Figure(figsize=(wide, 4.6), dpi=100)
         self.canvas: Any = FigureCanvasAgg(self.figure)
         axes, strip = self.figure.subplots(2, 1, height_ratios=[4, 1])
-        width = 1.5 * max(reach, *(0.3 * edges.max() for edges in inner_edges(scene).values()))
+        gaps = [gaps_at(scene, *pair).max() for pair in pairwise(scene.names)]
+        width = 1.5 * max(reach, *(0.3 * gap for gap in [0.0, *gaps]))
         self.elevation = Elevation(axes, scene, width)
         # mm, both surfaces of each contact over time.
         self.edges = [
@@ -156,8 +161,11 @@ class Stage:
         self.elevation.draw_surroundings(axes, xlim)
 
     def prepare_strip(self, strip: Axes, window: tuple[float, float]) -> Line2D:
-        for side, (*_, top) in self.motion.items():
-            strip.plot(self.run.time[self.seen], top[self.seen], color=BUILDINGS[side]["color"], linewidth=1.0, antialiased=True)
+        for side in self.runs.buildings:
+            look: dict[str, Any] = {"color": self.scene.looks[side]["color"], "linewidth": 1.0, "label": side}
+            strip.plot(self.run.time[self.seen], self.motion[side][-1][self.seen], antialiased=True, **look)
+        if not self.scene.is_pair:
+            strip.legend(loc="upper right", ncols=2, fontsize=8)
         strip.set(xlim=window, xlabel="time [s]", ylabel="tops [mm]")
         for label in (strip.xaxis.label, strip.yaxis.label):
             label.set_fontsize(9)

@@ -86,7 +86,7 @@ def runs_of(options: argparse.Namespace) -> Runs:
         scene = scene.with_record(read_record(options.record, "record"))
     stop = scene.stop() if options.stop is None else positive("stop", options.stop)
     warn(scene.warnings())
-    return Runs(scene, stop, options.start, options.end)
+    return Runs(scene, stop, options.start, options.end, options.buildings)
 
 
 def spare(options: argparse.Namespace, files: Iterable[Path]) -> None:
@@ -114,4 +114,6 @@ def run_options(parser: argparse.ArgumentParser, seen: str) -> None:
     parser.add_argument("--from", dest="start", type=float, metavar="S", help=f"s, where it begins; {seen}")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="s, where it ends")
     parser.add_argument("--record", type=Path, metavar="FILE", help="ground motion instead of that of the scene")
+    about = "one or two whose floors, storeys and loops are charted; by default, of more than two, those of the hardest impact"
+    parser.add_argument("--buildings", nargs="+", metavar="NAME", help=about)
     parser.add_argument("--stop", type=float, metavar="S", help="s, end of the run; by default that of the scene")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from .layout import Link, slabs_of
+from .layout import Link
 from .style import BLACK
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def stacked(links: list[Link]) -> Iterator[int]:
     """For each link how many parts hang at its slabs already."""
     hung: dict[tuple[str, int], int] = {}
     for link in links:
-        slabs = slabs_of(link)
+        slabs = link.slabs.values()
         first = max(hung.get(slab, 0) for slab in slabs)
         yield first
         for slab in slabs:

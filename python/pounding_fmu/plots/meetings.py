@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from .elevation import Elevation, prepare_height
 from .layout import Contact, Layout
 from .runs import Runs
-from .style import BLACK, BUILDINGS
+from .style import BLACK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 LABEL: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
 SMALLEST_GAP = 10.0  # mm, which can be seen
+MOST_NUMBERED = 12  # buildings whose contacts have numbers
+MOST_LINES = 40  # a line for each contact
+LETTERS, MOST_NAMES = 110, 50  # of names below a row: so many beside each other, or upright
 
 
 def contacts(runs: Runs) -> Figure:
@@ -26,8 +29,9 @@ def contacts(runs: Runs) -> Figure:
     lines = words(scene)
     # As high as the words and the floors need.
     height = max(5.2, 0.6 + 0.26 * len(lines), 1.0 + 0.4 * max(scene.floors.values()))
-    figure = Figure(figsize=(10, height))
-    axes, said = figure.subplots(1, 2, width_ratios=[1.6, 1])
+    many = max(0, len(scene.floors) - 2)
+    figure = Figure(figsize=(min(10 + 1.6 * many, 24), height))
+    axes, said = figure.subplots(1, 2, width_ratios=[1.6 + 0.5 * min(many, 5), 1])
     draw_meetings(axes, scene)
     said.axis("off")
     said.set_title("Contacts")
@@ -38,22 +42,30 @@ def contacts(runs: Runs) -> Figure:
 def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None = None) -> None:
     """The buildings at rest, and what meets, numbered.
 
-    Of more than `most` floors the roof alone has its number, of more contacts every second, third ... and `always`.
+    Of more than `most` floors the roof alone has its number, of more contacts every second, third ... and `always`,
+    which is the only one among many buildings.
     """
     # A gap is wide enough for a number.
     width = 6.5 * max(SMALLEST_GAP, *(1e3 * pair.gap for pair in scene.contacts)) if scene.contacts else 300.0
     said = "At rest; gaps to scale, widths not" if scene.contacts else "At rest"
     elevation = stand(axes, scene, width, said, margin=0.2)
-    for side, count in scene.floors.items():
-        write_levels(axes, elevation, side, lowest=1 if count <= most else count)
-    every = -(-len(scene.contacts) // most)
+    if scene.is_pair:
+        for side, count in scene.floors.items():
+            write_levels(axes, elevation, side, lowest=1 if count <= most else count)
+    else:
+        write_names(axes, elevation)
+    # Among narrow buildings there is room for one number.
+    every = -(-len(scene.contacts) // most) if len(scene.floors) <= MOST_NUMBERED else len(scene.contacts) + 1
     for p, (face, pair) in enumerate(zip(elevation.faces, scene.contacts), 1):
         if p % every == 0 or p == always:
             mark(axes, p, pair, face, width, scene)
 
 
 def words(scene: Layout) -> list[str]:
-    """A line for each contact, the floors that have none, a line for each way of a foundation and for each link."""
+    """A line for each contact, the floors that have none, a line for each way of a foundation and for each link; of many
+    contacts a line for each two buildings."""
+    if len(scene.contacts) > MOST_LINES:
+        return briefly(scene)
     lines = []
     for p, pair in enumerate(scene.contacts, 1):
         at = [f" at {surface['position']:.3g}" for surface in pair.surfaces.values() if surface["kind"] == "columns"]
@@ -70,14 +82,42 @@ def words(scene: Layout) -> list[str]:
     return [*lines, "", *links] if links else lines
 
 
+def briefly(scene: Layout) -> list[str]:
+    """A line for each two buildings, or building and wall, that have contacts: which, and their gaps."""
+    found: dict[str, list[int]] = {}
+    for p, pair in enumerate(scene.contacts, 1):
+        found.setdefault(", ".join(pair.sides) if len(pair.sides) > 1 else f"{pair.sides[0]}, wall", []).append(p)
+    lines = []
+    for between, own in found.items():
+        gaps = sorted({1e3 * scene.contacts[p - 1].gap for p in own})
+        wide = f"{gaps[0]:g} mm" if len(gaps) == 1 else f"{gaps[0]:g} to {gaps[-1]:g} mm"
+        numbers = f"{own[0]}" if len(own) == 1 else f"{own[0]} to {own[-1]}" if own[-1] - own[0] == len(own) - 1 else f"{len(own)}"
+        lines.append(f"{numbers}   {between}: {wide}")
+    return lines
+
+
 def write_levels(axes: Axes, elevation: Elevation, side: str, lowest: int) -> None:
     """On each slab from the lowest up, far from the other building, its number and level."""
+    is_first = side == elevation.scene.names[0]
     for floor, level in list(enumerate(elevation.scene.levels[side]))[lowest:]:
-        inner = elevation.inner[side][floor - 1]
-        far = inner - 0.86 * elevation.width if side == "left" else inner + 0.86 * elevation.width
+        far = elevation.edges[side][floor - 1] + (0.14 if is_first else 0.86) * elevation.width
         text = f"{floor}: {level:.4g} m" if elevation.scene.has_levels else f"{floor}"
-        look: dict[str, Any] = {"ha": side, "color": BUILDINGS[side]["color"], "fontsize": 9.5}
+        align = "left" if is_first else "right"
+        look: dict[str, Any] = {"ha": align, "color": elevation.scene.looks[side]["color"], "fontsize": 9.5}
         axes.annotate(text, (far, level), (0, 7), textcoords="offset points", **look)
+
+
+def write_names(axes: Axes, elevation: Elevation) -> None:
+    """Below each building of a row its name, upright where there are many; of more than there is room for every second, third
+    ... and the last one."""
+    names, looks = elevation.scene.names, elevation.scene.looks
+    every, last = -(-len(names) // MOST_NAMES), len(names) - 1
+    written = [side for at, side in enumerate(names) if at == last or at % every == 0 and at + every <= last]
+    is_upright = max(map(len, names)) > LETTERS / len(names)
+    axes.set_xticks([elevation.middle(side) for side in written], written, rotation=90 if is_upright else 0)
+    axes.tick_params(axis="x", length=0, labelsize=9.5)
+    for side, label in zip(written, axes.get_xticklabels()):
+        label.set_color(looks[side]["color"])
 
 
 def mark(axes: Axes, p: int, pair: Contact, face: float, width: float, scene: Layout) -> None:

@@ -10,12 +10,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from .layout import Contact, Surface
+from .layout import Surface, building
 from .runs import Run, Runs, Window
-from .style import ALONE, BLACK, BUILDINGS, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL, Look
+from .style import ALONE, BLACK, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL, Look
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
@@ -28,7 +28,7 @@ MOST_PANELS = 4
 def busiest(runs: Runs) -> list[int]:
     """Contacts (counted from 1) that are worth a panel, the highest first."""
     contacts = runs.scene.contacts
-    impulse = {p: float(np.sum(runs.run.of_contact(p)["impulse"])) for p in range(1, len(contacts) + 1)}
+    impulse = {p: float(np.sum(runs.run.of_contact(p)["impulse"])) for p in runs.contacts}
     chosen = sorted(impulse, key=lambda p: impulse[p], reverse=True)[:MOST_PANELS]
     return sorted(chosen, key=lambda p: contacts[p - 1].height, reverse=True)
 
@@ -73,21 +73,22 @@ def floors(runs: Runs) -> Figure | None:
     figure, panels = over_time(len(contacts), 2.7, runs.window)
     for axes, p in zip(panels, contacts):
         pair = runs.scene.contacts[p - 1]
-        hits = draw_edges(axes, runs.run, p, pair, runs.window)
+        hits = draw_edges(axes, runs, p, runs.window)
         axes.set_title(f"{pair.title}: {counted(hits)}; shaded: the gap, {1e3 * pair.gap:g} mm at rest")
     legend_of_all(figure, panels, "outside upper right")
     return figure
 
 
-def draw_edges(axes: Axes, run: Run, p: int, pair: Contact, window: Window) -> int:
+def draw_edges(axes: Axes, runs: Runs, p: int, window: Window) -> int:
     """Both surfaces of a contact, mm, a mark for each impact below them, and how many there are."""
+    run, pair = runs.run, runs.scene.contacts[p - 1]
     shown = run.rows(*window)
     clock = run.time[shown]
     left, right = (1e3 * edge[shown] for edge in pair.edges(run))
     axes.fill_between(clock, left, right, where=right >= left, **OPEN)
     axes.fill_between(clock, left, right, where=left > right, **OVERLAP)
     for edge, surface in [(right, pair.surfaces["right"]), (left, pair.surfaces["left"])]:
-        draw_edge(axes, clock, edge, surface)
+        draw_edge(axes, clock, edge, surface, runs.scene.looks)
     starts = run.of_contact(p)["start_s"]
     hits = starts[(window[0] <= starts) & (starts <= window[1])]
     bottom = min(left.min(), right.min()) - 0.08 * np.ptp([left, right])
@@ -97,10 +98,11 @@ def draw_edges(axes: Axes, run: Run, p: int, pair: Contact, window: Window) -> i
     return len(hits)
 
 
-def draw_edge(axes: Axes, clock: NDArray[Any], edge: NDArray[Any], surface: Surface) -> None:
+def draw_edge(
+    axes: Axes, clock: NDArray[Any], edge: NDArray[Any], surface: Surface, looks: Mapping[str, Look]
+) -> None:
     side = surface.get("side")
-    look = BUILDINGS[side] if side else WALL
-    axes.plot(clock, edge, label=f"{side} building" if side else "wall", **look)
+    axes.plot(clock, edge, label=building(side) if side else "wall", **(looks[side] if side else WALL))
 
 
 def forces(runs: Runs) -> Figure | None:
@@ -111,7 +113,7 @@ def forces(runs: Runs) -> Figure | None:
         return None
     figure = Figure(figsize=(9, 2.3 * len(contacts) + 0.8))
     panels = figure.subplots(len(contacts), 2, squeeze=False, width_ratios=[2.5, 1])
-    factor, unit = force_unit(max(run.hardest(p)["peak_force"] for p in contacts))
+    factor, unit = force_unit(max(run.hardest([p])["peak_force"] for p in contacts))
     for (bursts, near), p in zip(panels, contacts):
         pair = runs.scene.contacts[p - 1]
         bursts.set(title=f"{pair.title}: {counted(len(run.of_contact(p)))}", xlim=(0, runs.stop))
@@ -145,7 +147,7 @@ def draw_bursts(axes: Axes, run: Run, p: int, factor: float, **look: Any) -> Non
 
 def draw_hardest(axes: Axes, run: Run, p: int, factor: float) -> None:
     """Force over time in ms, with a third of its length before and after."""
-    hardest = run.hardest(p)
+    hardest = run.hardest([p])
     start, end = hardest["start_s"], np.nan_to_num(hardest["end_s"], nan=run.time[-1])
     clock, margin = 1e3 * (run.time - start), 0.35 * 1e3 * (end - start)
     around = (clock >= -margin) & (clock <= 1e3 * (end - start) + margin)
@@ -158,7 +160,7 @@ def draw_hardest(axes: Axes, run: Run, p: int, factor: float) -> None:
 
 def accelerations(runs: Runs) -> Figure | None:
     """The floors of the hardest impact with and without contact."""
-    hardest = runs.run.hardest()
+    hardest = runs.hardest
     if hardest is None:
         return None
     row = [part for part in runs.scene.contacts[hardest["contact"] - 1].row if part[1] != "foundation.rotation"]
@@ -168,7 +170,7 @@ def accelerations(runs: Runs) -> Figure | None:
         what = "Foundation" if part.startswith("foundation") else f"Floor {part[part.index('[') + 1 : -1]}"
         largest = []
         for one, label, line in [
-            (runs.run, "pounding", {**BUILDINGS[side], "linestyle": "-", "linewidth": 1.0}),
+            (runs.run, "pounding", {**runs.scene.looks[side], "linestyle": "-", "linewidth": 1.0}),
             *([(runs.alone, "without contact", ALONE)] if runs.has_alone else []),
         ]:
             shown = one.rows(*runs.window)
@@ -177,7 +179,7 @@ def accelerations(runs: Runs) -> Figure | None:
             peak = name.replace("acceleration", "peak_acceleration")
             largest.append((one[peak][-1] if peak in one else at_all) / STANDARD_GRAVITY)
         compared = "".join(f", {peak:.3g} g without contact" for peak in largest[1:])
-        axes.set_title(f"{what}, {side} building: up to {largest[0]:.3g} g in the run{compared}")
+        axes.set_title(f"{what}, {building(side)}: up to {largest[0]:.3g} g in the run{compared}")
         axes.set_ylabel("acceleration [g]")
         axes.legend(loc="lower right", ncols=2)
     return figure
@@ -211,7 +213,7 @@ def hysteresis(runs: Runs) -> Figure | None:
 
 def draw_impact_loops(axes: Axes, run: Run, p: int, colours: ScalarMappable | None = None) -> Any:
     """Force against penetration of the impacts of a contact, in colours or grey; returns the hardest, in black."""
-    hardest = run.hardest(p)
+    hardest = run.hardest([p])
     factor, unit = force_unit(hardest["peak_force"])
     penetration, force = 1e3 * run[f"contact[{p}].penetration"], run[f"contact[{p}].force"] / factor
     for impact in np.sort(run.of_contact(p), order="peak_force"):

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import _native
-from .._scenes import Names
+from .._scenes import Names, unknown
 from .._single import Result, run
 from .layout import Layout
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+MOST_BUILDINGS = 2  # in charts
 
 Window = tuple[float, float]  # s, from and to
 
@@ -45,14 +48,16 @@ class Run:
         own: NDArray[Any] = self.impacts[self.impacts["contact"] == contact]
         return own
 
-    def hardest(self, contact: int | None = None) -> Any:
-        """The impact with the largest force; where all are of rigid contacts, that with the largest impulse."""
+    def hardest(self, contacts: Iterable[int] | None = None) -> Any:
+        """The impact, of these contacts or of all, with the largest force; where all are of rigid contacts, that with the
+        largest impulse."""
 
         def hardness(impact: Any) -> tuple[bool, float]:
             is_soft = impact["contact"] not in self.rigid
             return is_soft, float(impact["peak_force" if is_soft else "impulse"])
 
-        return max(self.impacts if contact is None else self.of_contact(contact), key=hardness, default=None)
+        impacts = self.impacts if contacts is None else self.impacts[np.isin(self.impacts["contact"], [*contacts])]
+        return max(impacts, key=hardness, default=None)
 
     def rows(self, start: float, end: float) -> slice:
         """Those from one time to another."""
@@ -64,13 +69,20 @@ class Run:
 
 
 class Runs:
-    """A scene, its run to a time, s, and that without contacts, once they are asked for; what of it is to be seen."""
+    """A scene, its run to a time, s, and that without contacts, once they are asked for; what of it is to be seen: from when
+    to when, and of a row of more than two buildings which of them."""
 
     def __init__(
-        self, scene: _native.Scene, stop: float, start: float | None = None, end: float | None = None
+        self,
+        scene: _native.Scene,
+        stop: float,
+        start: float | None = None,
+        end: float | None = None,
+        buildings: Sequence[str] | None = None,
     ) -> None:
         self._scene, self.stop, self._start, self._end = scene, stop, start, end
         self.scene = Layout(scene)
+        self._named = None if buildings is None else chosen(buildings, self.scene.names)
         for name, time in [("from", start), ("to", end)]:
             if time is not None and not 0.0 <= time <= stop * (1 + 1e-12):
                 raise ValueError(f"{name} = {time:g}: expected a time within the run, from 0 to {stop:g} s")
@@ -83,6 +95,43 @@ class Runs:
         impacts = self._run(self._scene, min(0.02, self.stop), []).impacts
         within = int(min(ROWS_PER_IMPACT, self._most_rows / 2 / max(1, len(impacts)) - 5))
         return self._run(self._scene, self._step, self._drawn(self._scene), max(0, within))
+
+    @cached_property
+    def buildings(self) -> list[str]:
+        """Those of charts, from left to right: both of two, those that were asked for, or those of the hardest impact; without
+        any of the contact that came nearest to one, and without contacts the two that move farthest."""
+        if self._named is not None:
+            return self._named
+        if self.scene.is_pair:
+            return self.scene.names
+        if self.scene.contacts:
+            return self.scene.contacts[self.hardest_contact(range(1, len(self.scene.contacts) + 1)) - 1].sides
+        farthest = {side: np.abs(self.run[f"{side}.displacement[{n}]"]).max() for side, n in self.scene.floors.items()}
+        most = sorted(farthest, key=farthest.__getitem__)[-2:]
+        return [side for side in self.scene.names if side in most]
+
+    @cached_property
+    def contacts(self) -> list[int]:
+        """Those of charts, counted from 1: all of two buildings, else those between the ones that are shown, or where there
+        are none, those that any of them has."""
+        every = {p: {*pair.sides} for p, pair in enumerate(self.scene.contacts, 1)}
+        if self._named is None and self.scene.is_pair:
+            return list(every)
+        shown = {*self.buildings}
+        return [p for p, sides in every.items() if sides <= shown] or [p for p, sides in every.items() if sides & shown]
+
+    @cached_property
+    def hardest(self) -> Any:
+        """The hardest impact of these contacts."""
+        return self.run.hardest(self.contacts)
+
+    def hardest_contact(self, of: Iterable[int]) -> int:
+        """The one of the hardest impact of these contacts, or without any the one that came nearest to it."""
+        contacts = list(of)
+        hardest = self.run.hardest(contacts)
+        if hardest is not None:
+            return int(hardest["contact"])
+        return max(contacts, key=lambda p: float(self.run[f"contact[{p}].penetration"].max()))
 
     @property
     def has_alone(self) -> bool:
@@ -145,12 +194,24 @@ class Runs:
         """The window with the largest sum of impulses; without impacts that with the largest displacement."""
         if self.stop <= WINDOW:
             return 0.0, self.stop
-        times, weights = self.run.time, self.run["left.displacement[1]"] ** 2
-        if len(self.run.impacts):
-            times, weights = self.run.impacts["start_s"], np.abs(self.run.impacts["impulse"])
+        times, weights = self.run.time, self.run[f"{self.buildings[0]}.displacement[1]"] ** 2
+        impacts = self.run.impacts[np.isin(self.run.impacts["contact"], self.contacts)]
+        if len(impacts):
+            times, weights = impacts["start_s"], np.abs(impacts["impulse"])
         starts = np.linspace(0.0, self.stop - WINDOW, 200)
         totals = np.array([np.sum(weights[(times >= start) & (times < start + WINDOW)]) for start in starts])
         best = starts[totals == totals.max()]
         # In the middle of those that show as much: what happens is not at the edge.
         start = float(best[len(best) // 2])
         return start, start + WINDOW
+
+
+def chosen(wanted: Sequence[str], names: Sequence[str]) -> list[str]:
+    """The buildings that are asked for, from left to right, or what is wrong with that."""
+    among = f"expected one or two of {', '.join(names)}"
+    for name in wanted:
+        if name not in names:
+            raise ValueError(f"buildings: {unknown(name, names, 'the scene has no such building')}; {among}")
+    if not 0 < len(set(wanted)) <= MOST_BUILDINGS:
+        raise ValueError(f"buildings = {' '.join(wanted)}: {among}")
+    return [name for name in names if name in wanted]

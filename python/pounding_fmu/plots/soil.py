@@ -10,7 +10,6 @@ from matplotlib.patches import Polygon
 
 from .devices import Device, Line, broken, drawn
 from .layout import Layout, Link
-from .style import BUILDINGS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +20,7 @@ BLOCK, PIT = 0.22, 0.85
 # Shares of the width of a building: from a block to what holds its sway, from its ends to what it rocks on, and from one part
 # of that to the next.
 TO_GROUND, INSET, BESIDE = 0.34, 0.12, 0.13
+UNDER = 0.17  # of the width: from the middle of a block between two others to each end of what holds its sway
 MORE = 0.05  # beyond the ground that holds it
 
 
@@ -116,14 +116,14 @@ class Post(Line):
 
 
 class Foundation:
-    """That of a building whose lowest edge at the gap is at `inner`, mm, of a storey so high, in levels."""
+    """That of a building whose left edge is at `left`, mm, of a storey so high, in levels."""
 
-    def __init__(self, axes: Axes, scene: Layout, side: str, inner: float, width: float, storey: float) -> None:
+    def __init__(self, axes: Axes, scene: Layout, side: str, left: float, width: float, storey: float) -> None:
         soil, level = scene.foundations[side], float(scene.levels[side][0])
         self.rise = float(scene.rise(side)[0])
         self.bottom = level - PIT * storey
-        self.left = inner - (width if side == "left" else 0.0)
-        self.block = Slab(axes, level - BLOCK * storey / 2, (width, BLOCK * storey), BUILDINGS[side]["color"])
+        self.left = left
+        self.block = Slab(axes, level - BLOCK * storey / 2, (width, BLOCK * storey), scene.looks[side]["color"])
         self.block.place(self.left, 0.0)
         middle = self.left + width / 2
         upright = self.bottom, level - BLOCK * storey
@@ -132,7 +132,7 @@ class Foundation:
             for sign in (-1.0, 1.0)
             for place, part in enumerate(soil["rocking"])
         ]
-        self.device = sway_of(axes, side, soil["sway"], self.left, width, level, storey) if soil["sway"] else None
+        self.device = sway_of(axes, scene, side, self.left, width, level, storey) if soil["sway"] else None
 
     def ends(self) -> tuple[float, float]:
         """mm, from edge to edge, with what holds it."""
@@ -150,11 +150,15 @@ class Foundation:
             self.device.place((0.0, foot.displacement) if held_left else (foot.displacement, 0.0))
 
 
-def sway_of(axes: Axes, side: str, parts: list[str], left: float, wide: float, level: float, storey: float) -> Device:
-    """What holds a foundation on the ground on the side that is away from the gap."""
-    away, there = (-1, left) if side == "left" else (1, left + wide)
-    ground = there + away * TO_GROUND * wide
+def sway_of(axes: Axes, scene: Layout, side: str, left: float, wide: float, level: float, storey: float) -> Device:
+    """What holds a foundation on the ground: on the side that is away from the gap, or below a block between two others."""
     block = {"kind": "floor", "side": side, "floor": 0}
-    told: dict[str, Any] = {"parts": parts, "left": block, "right": block, side: {"kind": "wall"}}
-    ends: list[NDArray[Any]] = [np.array([x, level]) for x in sorted((there, ground))]
+    free = next((end for end, step in (("left", -1), ("right", 1)) if scene.beside(side, step) is None), None)
+    if free is None:
+        across, level = (left + (0.5 - UNDER) * wide, left + (0.5 + UNDER) * wide), level - BLOCK * storey
+    else:
+        across = (left - TO_GROUND * wide, left) if free == "left" else (left + wide, left + (1 + TO_GROUND) * wide)
+    parts = scene.foundations[side]["sway"]
+    told: dict[str, Any] = {"parts": parts, "left": block, "right": block, free or "right": {"kind": "wall"}}
+    ends: list[NDArray[Any]] = [np.array([x, level]) for x in across]
     return Device(axes, Link(told), ends, storey, 0)

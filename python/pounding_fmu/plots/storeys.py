@@ -9,12 +9,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .elevation import prepare_height
-from .layout import Layout
+from .layout import titled
 from .pictures import force_unit, handy, legend_of_all
 from .runs import Run, Runs
-from .style import ALONE, BLACK, BUILDINGS, GREY, Look
+from .style import ALONE, BLACK, GREY, Look
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -27,7 +29,7 @@ LINK: Look = {"color": BLACK, "linewidth": 1.4}
 
 def both(runs: Runs, side: str) -> list[tuple[Run, str, Look]]:
     """The run and that without contacts, and how their lines are called and look."""
-    return with_and_without(runs, side, BUILDINGS[side])
+    return with_and_without(runs, side, runs.scene.looks[side])
 
 
 def with_and_without(runs: Runs, name: str, look: Look) -> list[tuple[Run, str, Look]]:
@@ -43,21 +45,27 @@ def drift_of(runs: Runs, run: Run, side: str, storey: int) -> NDArray[Any]:
     return drift
 
 
-def panels_over_height(scene: Layout, columns: int, width: float) -> tuple[Figure, Any]:
-    height = 1.8 + 0.5 * min(12, max(scene.floors.values()))
+def panels_over_height(runs: Runs, columns: int, width: float) -> tuple[Figure, Any]:
+    height = 1.8 + 0.5 * min(12, max(runs.scene.floors[side] for side in runs.buildings))
     figure = Figure(figsize=(width * columns + 0.5, height))
     return figure, figure.subplots(1, columns, sharey=True, squeeze=False)[0]
 
 
 def drifts(runs: Runs) -> Figure:
     """Largest inter-storey drifts of either sign over the height, with and without contact."""
-    figure, panels = panels_over_height(runs.scene, len(runs.scene.floors), 4.0)
-    largest = max(draw_drifts(axes, runs, side) for axes, side in zip(panels, runs.scene.floors))
-    for axes, side in zip(panels, runs.scene.floors):
-        axes.set(title=f"{side.capitalize()} building", xlim=(-1.08 * largest, 1.08 * largest))
-    prepare_height(panels[0], runs.scene, "diamond: a contact" if runs.scene.contacts else None)
+    figure, panels = panels_over_height(runs, len(runs.buildings), 4.0)
+    draw_all_drifts(panels, runs)
+    prepare_height(panels[0], runs.scene, "diamond: a contact" if runs.scene.contacts else None, runs.buildings)
     legend_of_all(figure, panels)
     return figure
+
+
+def draw_all_drifts(panels: Iterable[Axes], runs: Runs) -> None:
+    """A panel for each building, to one scale."""
+    of = list(zip(panels, runs.buildings))
+    largest = max(draw_drifts(axes, runs, side) for axes, side in of)
+    for axes, side in of:
+        axes.set(title=titled(side), xlim=(-1.08 * largest, 1.08 * largest))
 
 
 def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
@@ -82,8 +90,8 @@ def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
 def storeys_with(runs: Runs, quantity: str) -> dict[str, list[int]]:
     """Of each building that has any, the storeys with this output, counted from 1."""
     found = {
-        side: [i for i in range(1, count + 1) if f"{side}.{quantity}[{i}]" in runs.run]
-        for side, count in runs.scene.floors.items()
+        side: [i for i in range(1, runs.scene.floors[side] + 1) if f"{side}.{quantity}[{i}]" in runs.run]
+        for side in runs.buildings
     }
     return {side: storeys for side, storeys in found.items() if storeys}
 
@@ -105,8 +113,9 @@ def strain_of(runs: Runs, side: str, storey: int) -> float:
 
 
 def strongest_links(runs: Runs, most: int) -> list[int]:
-    """The links with the largest forces, counted from 1, in their order."""
-    largest = {at: link_force(runs.run, at) for at in range(1, len(runs.scene.links) + 1)}
+    """The links of these buildings with the largest forces, counted from 1, in their order."""
+    shown = {*runs.buildings}
+    largest = {at: link_force(runs.run, at) for at, link in enumerate(runs.scene.links, 1) if shown & {*link.sides}}
     return sorted(sorted(largest, key=largest.__getitem__)[-most:])
 
 
@@ -176,7 +185,7 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
     pounding, *alone = (reached(runs, one, side, storey) for one, _, _ in lines)
     compared = f" ({alone[0]})" if alone else ""
     what = "ductility" if f"{side}.ductility[{storey}]" in runs.run else "drift up to"
-    axes.set_title(f"{side.capitalize()} storey {storey}: {what} {pounding}{compared}")
+    axes.set_title(f"{titled(side, f'storey {storey}')}: {what} {pounding}{compared}")
 
 
 def draw_zero(axes: Axes) -> None:
@@ -198,7 +207,7 @@ def residual(runs: Runs) -> Figure | None:
     storeys = storeys_with(runs, "ductility")
     if not storeys:
         return None
-    figure, panels = panels_over_height(runs.scene, 2 * len(storeys), 2.6)
+    figure, panels = panels_over_height(runs, 2 * len(storeys), 2.6)
     for side, ductility, left_over in zip(storeys, panels[::2], panels[1::2]):
         for one, label, line in both(runs, side):
             for axes, quantity, factor in [(ductility, "ductility", 1.0), (left_over, "residual_drift", 1e3)]:
@@ -211,8 +220,8 @@ def residual(runs: Runs) -> Figure | None:
                 axes.stairs(at_end, levels, orientation="horizontal", baseline=None, label=label, **line)
         ductility.axvline(1, color=BLACK, linewidth=0.8, linestyle=":")
         left_over.axvline(0, color=GREY, linewidth=0.8)
-        ductility.set(title=f"{side.capitalize()} building", xlabel="ductility", xlim=(0, None))
+        ductility.set(title=titled(side), xlabel="ductility", xlim=(0, None))
         left_over.set_xlabel("residual drift [mm]")
-    prepare_height(panels[0], runs.scene, "dotted: yield")
+    prepare_height(panels[0], runs.scene, "dotted: yield", runs.buildings)
     legend_of_all(figure, panels)
     return figure

@@ -1,26 +1,40 @@
 """How the pictures look: one colour and dash for each building and each law of contact, in every picture.
 
-The colours are Okabe and Ito's and two of Tol's: colour-blind eyes tell them apart; in black and white the dashes do.
+The colours are Okabe and Ito's and some of Tol's: colour-blind eyes tell them apart; in black and white the dashes do.
 """
 
 from __future__ import annotations
 
 import io
+import itertools
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.figure import Figure
 
 Look = dict[str, Any]
 
 BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE = "#0072B2", "#56B4E9", "#009E73", "#E69F00", "#D55E00", "#CC79A7"
 WINE, OLIVE, YELLOW, BLACK, GREY = "#882255", "#8A8A1F", "#F0E442", "#000000", "#888888"
+INDIGO, KHAKI, BROWN = "#332288", "#999933", "#661100"
 
-# The two buildings, a wall beside them, and a building that stands free.
+# Buildings, a wall beside them, and a building that stands free.
 LEFT: Look = {"color": BLUE, "linestyle": "-", "linewidth": 1.4}
 RIGHT: Look = {"color": VERMILION, "linestyle": "--", "linewidth": 1.4}
-BUILDINGS = {"left": LEFT, "right": RIGHT}
+# Of a row from left to right; after eight it begins anew. Neighbours differ in how light they are, too.
+BUILDINGS: list[Look] = [
+    LEFT,
+    RIGHT,
+    {"color": INDIGO, "linestyle": "-.", "linewidth": 1.4},
+    {"color": ORANGE, "linestyle": (0, (6, 1)), "linewidth": 1.6},
+    {"color": WINE, "linestyle": ":", "linewidth": 1.8},
+    {"color": KHAKI, "linestyle": (0, (5, 1, 1, 1, 1, 1)), "linewidth": 1.6},
+    {"color": BROWN, "linestyle": (0, (2, 1)), "linewidth": 1.4},
+    {"color": PURPLE, "linestyle": (0, (9, 2, 2, 2)), "linewidth": 1.6},
+]
 WALL: Look = {"color": BLACK, "linestyle": "-", "linewidth": 2.2}
 ALONE: Look = {"color": GREEN, "linestyle": (0, (3, 1)), "linewidth": 2.0}
 # The force of a contact, the gap between two edges, a wall that is cut, and where edges press.
@@ -43,7 +57,7 @@ LAWS: dict[str, Look] = {
     "barros_khatami_damper": {"color": WINE, "linestyle": (0, (4, 1, 1, 1)), "linewidth": 1.8},
 }
 
-# Contacts beside each other: no colour of a building.
+# Contacts beside each other: no colour of the first three buildings.
 CONTACTS = [BLACK, PURPLE, SKY, ORANGE]
 
 # For what has no colour of its own: lines in this order.
@@ -66,6 +80,11 @@ LOOK: Any = {
 FORMATS = (".png", ".svg", ".pdf")
 
 
+def looks(names: Iterable[str]) -> dict[str, Look]:
+    """How each building of a row looks, by its name."""
+    return dict(zip(names, itertools.cycle(BUILDINGS)))
+
+
 def pyplot() -> Any:
     """matplotlib.pyplot with these settings for good: for programs that draw files of their own."""
     import matplotlib
@@ -75,7 +94,6 @@ def pyplot() -> Any:
     import matplotlib.pyplot as plt
 
     return plt
-
 
 
 

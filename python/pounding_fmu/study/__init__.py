@@ -8,7 +8,7 @@
 >>> study.column("peak_force_n", gap=0.01, pga=3.0).round()
 array([1057.,  919.,  757.])
 
-A case sets its gap (of all contacts), its record, the peak ground acceleration and, where `vary` says so, other
+A case sets its gap (of all contacts, or a factor on those of the scene), its record, the peak ground acceleration and, where `vary` says so, other
 parameters of the scene, such as the dashpots of its links. Each runs a second time with a gap
 that never closes, for comparison. `docs/study.md` of the project says what the columns of the table mean.
 """
@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any
 from .. import _native
 from .._data import DATA
 from .._scenes import SECONDS, by_name, refuse, unknown, warn
-from .cases import NEVER_CLOSES, Row, varied_text
+from .cases import FACTOR, NEVER_CLOSES, Row, varied_text
 
 if TYPE_CHECKING:
     import numpy as np
@@ -79,11 +79,12 @@ class Study(Sequence[Row]):
         *,
         scene: str | None = None,
         gap: float | None = None,
+        gap_factor: float | None = None,
         pga: float | None = None,
         varied: Mapping[str, float] | None = None,
     ) -> NDArray[Any]:
-        """The values of a column in the order of the rows: of all, or of one scene, gap (m), intensity (m/s2) and of
-        these values of the parameters that were varied.
+        """The values of a column in the order of the rows: of all, or of one scene, gap (m) or factor on gaps, intensity
+        (m/s2) and of these values of the parameters that were varied.
 
         Numbers that a building does not have are NaN.
 
@@ -94,10 +95,10 @@ class Study(Sequence[Row]):
 
         if self.rows and name not in self.rows[0]:
             raise KeyError(unknown(name, self.rows[0], "the study has no such column"))
-        wanted: Row = {"scene": scene, "gap_m": gap, "pga_m_s2": pga}
+        wanted: Row = {"scene": scene, "gap_m": gap, FACTOR: gap_factor, "pga_m_s2": pga}
         if varied is not None:
             wanted["varied"] = varied_text({key: float(value) for key, value in varied.items()})
-        rows = [row for row in self.rows if all(value in (None, row[of]) for of, value in wanted.items())]
+        rows = [row for row in self.rows if all(value in (None, row.get(of)) for of, value in wanted.items())]
         values = [row[name] for row in rows]
         return np.array([np.nan if value is None else value for value in values])
 
@@ -110,7 +111,8 @@ def run_study(
     scenes: Scene | Sequence[Scene],
     records: Sequence[str | os.PathLike[str]] | Mapping[str, Record] | None = None,
     *,
-    gaps: Iterable[float] = GAPS,
+    gaps: Iterable[float] | None = None,
+    gap_factors: Iterable[float] | None = None,
     pga: Iterable[float] = PGA,
     synthetic: int = SYNTHETIC,
     seed: int = 1,
@@ -127,13 +129,15 @@ def run_study(
         scenes: one or several, each a path, a text or a dict. Their names have to differ.
         records: paths, or by name what ``simulate`` takes as a record. El Centro 1940 and synthetic motions where
             nothing is said.
-        gaps: m, each set at all contacts of a scene; below 1000, which is the run without contact.
+        gaps: m, each set at all contacts of a scene; below 1000, which is the run without contact. ``GAPS`` where nothing
+            is said.
+        gap_factors: in place of gaps, by which all gaps of a scene are multiplied.
         pga: m/s2, to which the peak of each record is scaled.
         synthetic: how many synthetic motions, where no records are given.
         seed: of the first of them.
         stop: s, end of each run; where nothing is said the end of its record, or the scene's ``stop_time`` if later.
-        vary: values of other parameters, by FMU variable name; ``link[*].dashpot`` sets it at all links. Of several
-            parameters every combination is run.
+        vary: values of other parameters, by FMU variable name; ``link[*].dashpot`` sets it at all links,
+            ``*.damping_ratio`` that of all buildings. Of several parameters every combination is run.
         output: folder of the table ``results.csv``. Rows are there as soon as they are done, and a study that was
             stopped goes on from them. Without a folder the table is returned alone.
         scheduler: address of a Dask cluster whose workers have this package, or ``local`` for one on this machine.
@@ -153,7 +157,10 @@ def run_study(
     """
     from .plan import plan
 
-    chosen_gaps, chosen_pga = _numbers(gaps, pga, (synthetic, seed, stop, workers))
+    refuse(["gaps, gap_factors: expected one of them"] * (gaps is not None and gap_factors is not None))
+    chosen_gaps, chosen_pga = _numbers(GAPS if gaps is None else gaps, pga, (synthetic, seed, stop, workers))
+    factors = None if gap_factors is None else [float(value) + 0.0 for value in gap_factors]
+    refuse([f"gap_factors: {factor!r}: expected a finite number >= 0" for factor in factors or [] if not 0 <= factor < float("inf")])
     axes = {name: [float(value) + 0.0 for value in values] for name, values in by_name("vary", vary).items()}
     refuse([f"vary: {name}: expected at least one value" for name, values in axes.items() if not values])
     of_scenes: list[Scene] = [scenes] if isinstance(scenes, (str, os.PathLike, Mapping)) else list(scenes)
@@ -162,7 +169,7 @@ def run_study(
     with tempfile.TemporaryDirectory(prefix="study") as temporary:
         folder = Path(temporary if output is None else output)
         chosen = _records(records, folder, range(seed, seed + synthetic))
-        planned = plan(of_scenes, chosen, chosen_gaps, chosen_pga, stop, axes)
+        planned = plan(of_scenes, chosen, chosen_gaps, chosen_pga, stop, axes, factors)
         warn(planned.warnings)
         rows = _fill(planned, folder / "results.csv", scheduler, workers or os.cpu_count() or 1, progress)
     return Study(rows, None if output is None else folder / "results.csv")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Row = dict[str, Any]
 Motion = tuple["NDArray[np.float64]", "NDArray[np.float64]"]  # s and m/s2
 
-SIDES = ("left", "right")
+SIDES = ("left", "right")  # both have columns, also where one building stands alone
 NEVER_CLOSES = 1e3  # m, the gap of the runs without contact
 # Columns by what they are made of: outputs of all contacts, and of the storeys or floors of a building.
 OF_CONTACTS: dict[str, tuple[str, Callable[[Any], float]]] = {
@@ -45,6 +45,12 @@ OF_FOUNDATIONS = {
     "displacement_m": "peak_displacement", "rotation_rad": "peak_rotation", "force_n": "peak_force", "moment_n_m": "peak_moment",
 }  # fmt: skip
 FOUNDATION = "foundation"
+ANY_FOUNDATION = "any foundation"  # what a table has room for: no name of a building
+# Of each contact of a row of buildings, and the number of the one with the largest force.
+OF_EACH_CONTACT = {"force_n": "peak_force", "impacts": "impacts"}
+CONTACT = "contact"
+HARDEST = "hardest_contact"
+FACTOR = "gap_factor"
 OF_YIELDING = {"ductility": "ductility", "residual_drift_m": "residual_drift"}
 STRENGTH = ("stiffness", "yield_force", "post_yield_ratio")
 
@@ -59,12 +65,18 @@ class Case:
     record_id: str
     pga: float
     """m/s2"""
-    gap: float
-    """m, of all contacts"""
+    gap: float | None
+    """m, of all contacts; None with a factor"""
     stop: float
     """s"""
     varied: str = ""
     """The other parameters that it sets, as `varied_text` writes them."""
+    factor: float | None = None
+    """by which all gaps of the scene are multiplied"""
+
+    def width(self, own: float) -> float:
+        """m, of a gap that is so wide in the scene."""
+        return own * self.factor if self.factor is not None else self.gap or 0.0
 
 
 @dataclass(frozen=True)
@@ -80,37 +92,51 @@ class Materials:
 class Readings:
     """What is read at the end of a run of a scene, and the row of a table that is made of it."""
 
-    def __init__(self, names: Sequence[str]) -> None:
-        self.gaps = _of_contacts(names, "gap")
+    def __init__(self, variables: Mapping[str, Any], buildings: Sequence[str]) -> None:
+        """Of all variables with their starts, and the names of the buildings."""
+        names = list(variables)
+        self.is_row = not {*buildings} <= {*SIDES}
+        self.buildings = list(buildings) if self.is_row else list(SIDES)
+        self.gaps: dict[str, float] = {name: variables[name] for name in _of_contacts(names, "gap")}
+        self.each_contact = {
+            what: _numbered(names, f"{CONTACT}[", f"].{what}") if self.is_row else {}
+            for what in (*OF_EACH_CONTACT.values(), "impulse")
+        }
         self.contacts = {what: _of_contacts(names, what) for what, _ in OF_CONTACTS.values()}
         of_storeys = [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
-        self.storeys = {(side, what): _numbered(names, f"{side}.{what}[", "]") for side in SIDES for what in of_storeys}
+        self.storeys = {(side, what): _numbered(names, f"{side}.{what}[", "]") for side in self.buildings for what in of_storeys}
         self.links = {what: _numbered(names, f"{LINK}[", f"].{what}") for what in OF_LINKS.values()}
         of_foundations = {
             f"{side}_{FOUNDATION}_{column}": f"{side}.{FOUNDATION}.{what}"
             for column, what in OF_FOUNDATIONS.items()
-            for side in SIDES
+            for side in self.buildings
         }
         self.foundations = {column: name for column, name in of_foundations.items() if name in names}
-        self.names = list(names)
+        self.names = names
         # One building may stand alone, between walls.
-        self.sides = [side for side in SIDES if self.storeys[side, "peak_acceleration"]]
+        self.sides = [side for side in self.buildings if self.storeys[side, "peak_acceleration"]]
         self.outputs = ["impacts", *itertools.chain(*self.contacts.values())]
         self.outputs += [name for of_side in self.storeys.values() for name in of_side.values()]
         self.outputs += [name for of_link in self.links.values() for name in of_link.values()]
         self.outputs += self.foundations.values()
         self.outputs += [f"{side}.peak_base_shear" for side in self.sides]
-        self.collapses = {side: f"{side}.collapsed" for side in SIDES if f"{side}.collapsed" in names}
+        self.collapses = {side: f"{side}.collapsed" for side in self.buildings if f"{side}.collapsed" in names}
         self.outputs += self.collapses.values()
+        self.outputs += [name for of in self.each_contact.values() for name in of.values()]
+        self.outputs = list(dict.fromkeys(self.outputs))
 
     def counts(self) -> dict[str, int]:
-        """Storeys of each building, and links; 1 where there are foundations."""
-        others = {LINK: len(self.links["peak_force"]), FOUNDATION: int(bool(self.foundations))}
-        return {side: len(self.storeys[side, "peak_drift"]) for side in SIDES} | others
+        """Storeys of each building, links, and contacts of a row; 1 where there are foundations."""
+        others = {LINK: len(self.links["peak_force"]), ANY_FOUNDATION: int(bool(self.foundations))}
+        others[CONTACT] = len(self.each_contact["impacts"])
+        return {side: len(self.storeys[side, "peak_drift"]) for side in self.buildings} | others
 
     def meant(self, name: str) -> list[str]:
-        """The variables that a name stands for, in which `*` is any number."""
-        pattern = re.compile(re.escape(name).replace(r"\*", r"\d+"))
+        """The variables that a name stands for, in which `*` is any number, or before the first dot any building."""
+        first, dot, rest = name.partition(".")
+        any_building = "(?:" + "|".join(map(re.escape, self.buildings)) + ")"
+        begin = any_building if first == "*" and dot else re.escape(first).replace(r"\*", r"\d+")
+        pattern = re.compile(begin + re.escape(dot + rest).replace(r"\*", r"\d+"))
         return [variable for variable in self.names if pattern.fullmatch(variable)]
 
     def row(self, values: Sequence[float]) -> Row:
@@ -122,6 +148,7 @@ class Readings:
         for column, what in OF_LINKS.items():
             row |= {f"{LINK}_{column}[{i}]": value[name] for i, name in self.links[what].items()}
         row |= {column: value[name] for column, name in self.foundations.items()}
+        row |= self.row_of_contacts(value)
         for side in self.sides:
             row[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
             of_side = {
@@ -136,9 +163,38 @@ class Readings:
         return row | {f"{side}_collapsed": int(value[name]) for side, name in self.collapses.items()}
 
 
+    def row_of_contacts(self, value: Mapping[str, float]) -> Row:
+        """Of each contact of a row of buildings, and which was hit hardest: the force of rigid contacts says nothing, so without
+        others it is the impulse."""
+        row: Row = {}
+        for column, what in OF_EACH_CONTACT.items():
+            kind = int if what == "impacts" else float
+            row |= {f"{CONTACT}_{column}[{p}]": kind(value[name]) for p, name in self.each_contact[what].items()}
+        for what in ("peak_force", "impulse"):
+            found = {p: value[name] for p, name in self.each_contact[what].items()}
+            if any(found.values()):
+                return row | {HARDEST: max(found, key=found.__getitem__)}
+        return row
+
+
 def collapsed(row: Row) -> bool:
     """Whether the run has ended by a collapse."""
-    return any(row.get(f"{side}_collapsed") for side in SIDES)
+    return any(value for name, value in row.items() if name.endswith("_collapsed"))
+
+
+class Factor(float):
+    """A gap as so many times that of the scene."""
+
+
+def by_width(rows: Sequence[Row]) -> list[Row]:
+    """Rows whose `gap_m` is what was set, a factor on gaps, too."""
+    return [row if row.get(FACTOR) is None else {**row, "gap_m": Factor(row[FACTOR])} for row in rows]
+
+
+def sides_of(row: Row) -> list[str]:
+    """The names of the buildings that a row has columns of."""
+    ending = "_period_s"
+    return [name.removesuffix(ending) for name in row if name.endswith(ending)] or list(SIDES)
 
 
 def _numbered(names: Sequence[str], start: str, end: str) -> dict[int, str]:
@@ -178,7 +234,7 @@ def readings(scene: str) -> Readings:
     """What is read of a scene, given by its text without ``[ground]``."""
     read, _ = _native.Scene.parse(scene)
     assert read is not None  # it has been read before
-    return Readings([variable[0] for variable in read.variables()])
+    return Readings({variable[0]: variable[7] for variable in read.variables()}, read.buildings())
 
 
 def run_cases(
@@ -214,7 +270,7 @@ def _run(
 
     read = readings(scene)
     motions = [records[case.record_id] for case in cases]
-    parameters: dict[str, Any] = dict.fromkeys(read.gaps, [case.gap for case in cases])
+    parameters: dict[str, Any] = {name: [case.width(own) for case in cases] for name, own in read.gaps.items()}
     varied = [varied_values(case.varied) for case in cases]  # of the same parameters
     parameters |= {name: [of[key] for of in varied] for key in varied[0] for name in read.meant(key)}
     parameters["ground.scale"] = [case.pga / np.abs(motion[1]).max() for case, motion in zip(cases, motions)]

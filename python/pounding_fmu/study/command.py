@@ -11,20 +11,22 @@ from pathlib import Path
 
 from .. import _native, _record_options, _terminal
 from .._data import DATA
+from .._scenes import buildings
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
-from .cases import Row, collapsed, varied_values
-from .fragility import INTENSITIES, LIMITS, curves, demands, write
+from .cases import Row, by_width, collapsed, varied_values
+from .fragility import LIMITS, OF_BUILDING, curves, demands, write
+from .fragility import PGA as PGA_NAME
 
 MOST_SHOWN = 7  # lines that can be told apart
 
 ABOUT = """\
 Gap width against peak force and drift, over many scenes, records and intensities.
 
-Every case sets its gap (of all contacts), its record, the peak ground acceleration and what --vary names. Each case
+Every case sets its gap (of all contacts, or by --gap-factors those of the scene), its record, the peak ground acceleration and what --vary names. Each case
 runs a second time with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row
 per case; a study that was stopped goes on from there with the same command. At the end come results.parquet, where
 pyarrow is installed, the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does,
-fragility curves, and what the parameter does that --vary names first.
+fragility curves, what the parameter does that --vary names first, and of a row of buildings its ends beside its middle.
 """
 EXAMPLE = """\
 examples:
@@ -59,10 +61,12 @@ class Progress(_terminal.Progress):
 def run(options: argparse.Namespace) -> Study:
     """Runs the study and says where it is."""
     progress = Progress("cases")
+    check_intensity(options)
     study = run_study(
         options.scenes,
         _record_options.with_options(options.records, options),
         gaps=options.gaps,
+        gap_factors=options.gap_factors,
         pga=options.pga,
         synthetic=options.synthetic,
         seed=options.seed,
@@ -83,10 +87,20 @@ def run(options: argparse.Namespace) -> Study:
     return study
 
 
+def check_intensity(options: argparse.Namespace) -> None:
+    """Refuses that of a building which none of the scenes has, before all cases are run."""
+    if options.intensity == PGA_NAME:
+        return
+    known = [name for scene in options.scenes for name in buildings(scene)]
+    if options.intensity.removesuffix(OF_BUILDING) not in known:
+        among = ", ".join([PGA_NAME, *(f"{name}{OF_BUILDING}" for name in dict.fromkeys(known))])
+        raise ValueError(f"intensity = {options.intensity}: expected one of {among}")
+
+
 def draw(study: Study, options: argparse.Namespace) -> None:
     """Fragility and pictures of every scene, and of every choice of what was varied, in the folder of the table."""
     for scene in study.scenes:
-        of_scene = [row for row in study.rows if row["scene"] == scene]
+        of_scene = by_width([row for row in study.rows if row["scene"] == scene])
         for number, varied in enumerate(dict.fromkeys(row["varied"] for row in of_scene), 1):
             rows = [row for row in of_scene if row["varied"] == varied]
             named = [{**row, "scene": f"{scene}, {varied}"} for row in rows] if varied else rows
@@ -123,6 +137,7 @@ def draw_rows(rows: Sequence[Row], name: str, options: argparse.Namespace) -> No
 
     records = len({row["record_id"] for row in rows})
     pictures.gaps(rows, place(options, f"gaps_{name}.png"), options.show_pga)
+    pictures.row(rows, place(options, f"row_{name}.png"), (options.show_gaps, options.show_pga))
     pictures.fragility(found, records, place(options, f"fragility_{name}.png"), options.show_gaps)
 
 
@@ -162,9 +177,10 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("scenes", nargs="*", default=[feup], metavar="SCENE.toml", help="default: the laboratory frames")
     parser.add_argument("--records", nargs="+", metavar="FILE", help="ground motions, instead of the usual ones")
     _record_options.add(parser, "the files of --records do")
-    add_numbers(parser, "--gaps", "M", f"m (default: {' '.join(f'{gap:g}' for gap in GAPS)})", GAPS)
+    add_numbers(parser, "--gaps", "M", f"m, of all contacts (default: {' '.join(f'{gap:g}' for gap in GAPS)})")
+    add_numbers(parser, "--gap-factors", "X", "by which all gaps of the scene are multiplied, in place of --gaps")
     add_numbers(parser, "--pga", "A", f"m/s2 (default: {' '.join(f'{peak:g}' for peak in PGA)})", PGA)
-    about = "values of another parameter of the scene by its FMU name, * for any number; may be given several times"
+    about = "values of another parameter of the scene by its FMU name, * for any number, *.NAME for any building; may be given several times"
     parser.add_argument("--vary", action="append", type=axis, default=[], metavar="NAME=VALUES", help=about)
     parser.add_argument("-o", "--output", type=Path, default=Path("study"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument("--stop", type=float, metavar="S", help="s, end of each run; default: end of record or stop_time")
@@ -181,16 +197,19 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
         )
     pictures.add_argument(
         "--intensity",
-        choices=INTENSITIES,
-        default="pga",
-        help="what the fragility is drawn against: peak ground acceleration (default), or the spectral acceleration at "
-        "the first period of a building",
+        default=PGA_NAME,
+        metavar="NAME",
+        help="what the fragility is drawn against: pga, the peak ground acceleration (default), or left_sa, right_sa, the "
+        "spectral acceleration at the first period of that building",
     )
     add_numbers(pictures, "--show-gaps", "M", "m, those of fragility curves; default: five of them")
     add_numbers(pictures, "--show-pga", "A", "m/s2, those of curves over the gap; default: five of them")
     options = parser.parse_args(argv)
-    for name in ("gaps", "pga"):
-        shown, of_study = getattr(options, f"show_{name}") or [], getattr(options, name)
+    if options.gaps is not None and options.gap_factors is not None:
+        parser.error("--gaps and --gap-factors: expected one of them")
+    widths = options.gap_factors or options.gaps or GAPS
+    for name, of_study in (("gaps", widths), ("pga", options.pga)):
+        shown = getattr(options, f"show_{name}") or []
         if len(shown) > MOST_SHOWN or not set(shown) <= set(of_study):
             wanted = f"at most {MOST_SHOWN} of --{name}, which are {' '.join(f'{value:g}' for value in of_study)}"
             parser.error(f"--show-{name} {' '.join(f'{value:g}' for value in shown)}: expected {wanted}")

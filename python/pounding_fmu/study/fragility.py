@@ -18,16 +18,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .cases import NEVER_CLOSES, SIDES, Row, collapsed
+from .cases import FACTOR, NEVER_CLOSES, SIDES, Factor, Row, collapsed, sides_of
 
 Numbers = NDArray[np.float64]
 Truths = NDArray[np.bool_]
 
-INTENSITIES = {
-    "pga": ("pga_m_s2", "peak ground acceleration"),
-    "left_sa": ("left_sa_m_s2", "spectral acceleration, left building"),
-    "right_sa": ("right_sa_m_s2", "spectral acceleration, right building"),
-}
+PGA, OF_BUILDING = "pga", "_sa"
 LIMITS = {"force": "N", "drift": "m", "acceleration": "m/s2", "ductility": "1", "residual drift": "m"}
 MOST_POINTS = 8  # where all runs differ in intensity: shares of groups of neighbouring runs
 DEFORMATIONS = ("drift", "ductility", "residual drift")  # that a building which has collapsed exceeds, whatever the limit
@@ -56,6 +52,7 @@ class Curve:
     demand: Demand
     intensity: str
     gap: float
+    """m, or a factor on those of the scene"""
     levels: Numbers
     """m/s2, of each run"""
     exceeds: Truths
@@ -73,19 +70,29 @@ class Curve:
         return self.fit is not None and not self.levels[0] <= self.fit[0] <= self.levels[-1]
 
 
-def largest(what: str) -> Callable[[Row], float | None]:
+def intensity_of(name: str) -> tuple[str, str]:
+    """The column of an intensity, and what it is called: `pga`, or `corner_sa` of the building corner."""
+    if name == PGA:
+        return "pga_m_s2", "peak ground acceleration"
+    side = name.removesuffix(OF_BUILDING)
+    return f"{side}_sa_m_s2", f"spectral acceleration, {side}" + " building" * (side in SIDES)
+
+
+def largest(what: str, sides: Iterable[str]) -> Callable[[Row], float | None]:
     """Of the buildings that have it; without any `None`."""
-    names = [f"{side}_{what}" for side in SIDES]
+    names = [f"{side}_{what}" for side in sides]
     return lambda row: max((row[name] for name in names if row.get(name) is not None), default=None)
 
 
-DEMANDS: dict[str, Callable[[Row], float | None]] = {
-    "force": lambda row: float(row["peak_force_n"]),
-    "drift": largest("drift_m"),
-    "acceleration": largest("acceleration_m_s2"),
-    "ductility": largest("ductility"),
-    "residual drift": largest("residual_drift_m"),
-}
+def of_buildings(sides: Sequence[str]) -> dict[str, Callable[[Row], float | None]]:
+    """What may exceed a limit, of all contacts and of the building that has most of it."""
+    return {
+        "force": lambda row: float(row["peak_force_n"]),
+        "drift": largest("drift_m", sides),
+        "acceleration": largest("acceleration_m_s2", sides),
+        "ductility": largest("ductility", sides),
+        "residual drift": largest("residual_drift_m", sides),
+    }
 
 
 def demands(rows: Iterable[Row], limits: Mapping[str, float | None]) -> list[Demand]:
@@ -94,9 +101,10 @@ def demands(rows: Iterable[Row], limits: Mapping[str, float | None]) -> list[Dem
     rows = list(rows)
     closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES and not collapsed(row)]
     found = [Demand("pounding", "impacts", lambda row: row["impacts"], 0.0, "pounding")]
-    if any(row.get(f"{side}_collapsed") is not None for row in rows for side in SIDES):
+    sides = sides_of(rows[0]) if rows else list(SIDES)
+    if any(row.get(f"{side}_collapsed") is not None for row in rows for side in sides):
         found.append(Demand("collapse", "collapses", lambda row: float(collapsed(row)), 0.0, "collapse"))
-    for name, of in DEMANDS.items():
+    for name, of in of_buildings(sides).items():
         # A force of 0 says that there was no contact; ductilities are those of all runs of a scene, or of none.
         values = [value for row in closing if (value := of(row)) is not None and (value > 0 or name != "force")]
         limit = limits.get(name)
@@ -125,7 +133,7 @@ def shown(limit: float, unit: str) -> str:
 
 def curves(rows: Sequence[Row], demands: Iterable[Demand], intensity: str) -> list[Curve]:
     """A curve for each demand and each gap; without contact there is no force, and no pounding."""
-    column = INTENSITIES[intensity][0]
+    column = intensity_of(intensity)[0]
     if any(row.get(column) is None for row in rows):
         raise ValueError(f"{rows[0]['scene']} has no fragility by {intensity}: it has no such building")
     found = []
@@ -147,11 +155,14 @@ def exceeds(demand: Demand, row: Row) -> bool:
 
 
 def write(curves: Iterable[Curve], path: Path) -> None:
-    """A row per curve; `median_m_s2` and what follows are empty where there is no curve."""
+    """A row per curve; `median_m_s2` and what follows are empty where there is no curve. A factor on gaps has a column of its
+    own name in place of the gap, in which the run without contact is that with a gap of 1000, too."""
+    every = list(curves)
+    width = FACTOR if any(isinstance(curve.gap, Factor) for curve in every) else "gap_m"
     with path.open("w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow("demand,limit,unit,gap_m,intensity,runs,exceeding,median_m_s2,dispersion,extrapolated".split(","))
-        for curve in curves:
+        table.writerow(f"demand,limit,unit,{width},intensity,runs,exceeding,median_m_s2,dispersion,extrapolated".split(","))
+        for curve in every:
             demand = curve.demand
             counts = len(curve.exceeds), int(curve.exceeds.sum())
             fit = (*curve.fit, int(curve.is_extrapolated)) if curve.fit else ("", "", "")

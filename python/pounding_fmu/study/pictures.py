@@ -11,13 +11,16 @@ import numpy as np
 
 from .._extras import require
 from ..plots.style import ALONE, BLACK, CYCLE, LOOK, save
-from .cases import LINK, NEVER_CLOSES, SIDES, Row, collapsed, varied_values
-from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
+from .cases import LINK, NEVER_CLOSES, SIDES, Factor, Row, collapsed, sides_of, varied_values
+from .fragility import Curve, force_unit, intensity_of, lognormal, points
 
 Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as many as can be told apart
 
 STANDARD_GRAVITY = 9.80665  # m/s2
 MOST_LINES = 5
+MOST_BUILDINGS = 2  # whose panels show all of a row
+MOST_COLUMNS = 3
+MOST_NAMES = 20  # below a panel
 NO_CONTACT = {"color": BLACK, "linestyle": ":", "marker": "x"}
 LETTERS = 14  # that an inch of a title may have room for
 
@@ -44,6 +47,47 @@ def varied(rows: Sequence[Row], name: str, scene: str, path: Path, shown: tuple[
     closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES and not collapsed(row)]
     if closing:
         _draw(path, lambda: _varied(closing, name, scene, shown))
+
+
+def row(rows: Sequence[Row], path: Path, shown: tuple[Chosen, Chosen] = (None, None)) -> None:
+    """The largest drift and acceleration of each building of a row, relative to no contact, over its place: a line for each of
+    some gaps, medians over the records of runs that do not collapse, a column of panels for each of some intensities."""
+    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES and not collapsed(row)]
+    if closing and len(standing_in(closing)) > MOST_BUILDINGS:
+        _draw(path, lambda: _row(closing, shown))
+
+
+def _row(closing: Sequence[Row], shown: tuple[Chosen, Chosen]) -> Any:
+    sides = standing_in(closing)
+    widths, peaks = some((row["gap_m"] for row in closing), shown[0]), some((row["pga_m_s2"] for row in closing), shown[1])
+    drawn = peaks if shown[1] is not None else peaks[-MOST_COLUMNS:]
+    figure, axes = _panels(2, len(drawn), max(4.2 * len(drawn), 7.5) + 0.05 * len(sides), 6.6, sharex=True, sharey="row")
+    places = range(1, len(sides) + 1)
+    for column, pga in zip(axes.T, drawn):
+        for panel, (what, title) in zip(column, (("drift", "storey drift"), ("acceleration", "floor acceleration"))):
+            for width, style in zip(widths, CYCLE):
+                of_line = [row for row in closing if row["pga_m_s2"] == pga and row["gap_m"] == width]
+                ratios = [[row[f"{side}_{what}_ratio"] for row in of_line] for side in sides]
+                known = [[ratio for ratio in of if ratio is not None] for of in ratios]
+                medians = [np.median(of) if of else np.nan for of in known]
+                panel.plot(places, medians, **style, markersize=4 if len(sides) <= MOST_NAMES else 2, label=in_mm(width))
+            panel.axhline(1.0, **{**ALONE, "linewidth": 1.2})
+            panel.set_title(f"{title}, {in_g(pga)}")
+        every = -(-len(sides) // MOST_NAMES)
+        named = [place for place in places if place % every == 1 or every == 1]
+        column[-1].set_xticks(named, [sides[place - 1] for place in named], rotation=90 if len("".join(sides)) > 30 else 0)
+    for beside in axes:
+        beside[0].set_ylabel("relative to no contact")
+        # All panels beside each other have these limits, once all are drawn.
+        beside[0].set_ylim(0, 1.05 * max(np.nanmax(line.get_ydata()) for panel in beside for line in panel.lines))
+    records = len({row["record_id"] for row in closing})
+    said = f"{closing[0]['scene']}: ends and middle, medians of {records} records; of storeys and floors the largest"
+    said += left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
+    _title(figure, said + left_out([row["gap_m"] for row in closing], widths, in_mm, "gaps"))
+    lines = axes[0, 0].get_legend_handles_labels()
+    title = "gap, times that of the scene" if isinstance(widths[0], Factor) else "gap"
+    figure.legend(*lines, loc="outside lower center", ncols=len(CYCLE), title=title)
+    return figure
 
 
 def _draw(path: Path, draw: Callable[[], Any]) -> None:
@@ -86,16 +130,18 @@ def in_g(acceleration: float) -> str:
 
 
 def in_mm(gap: float) -> str:
+    if isinstance(gap, Factor):
+        return f"\N{MULTIPLICATION SIGN} {gap:g}"
     return "no contact" if gap == NEVER_CLOSES else f"{1e3 * gap:g} mm"
 
 
 def _gaps(closing: Sequence[Row], shown: Chosen, apart: str) -> Any:
     factor, unit = force_unit(max(row["peak_force_n"] for row in closing))
-    sides = [side for side in SIDES if any(row.get(f"{side}_drift_m") is not None for row in closing)]
+    sides = shown_of(standing_in(closing))
     panels: dict[str, Callable[[Row], Any]] = {f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor}
     for what, title in (("drift", "storey drift"), ("acceleration", "floor acceleration")):
         for side in sides:
-            panels[f"{side} building: {title}"] = lambda row, name=f"{side}_{what}_ratio": row[name]  # type: ignore[misc]
+            panels[f"{side}{' building' * (side in SIDES)}: {title}"] = lambda row, name=f"{side}_{what}_ratio": row[name]  # type: ignore[misc]
         panels.setdefault("impacts", lambda row: row["impacts"])
     figure, axes = _panels(2, 1 + len(sides), 4 * (1 + len(sides)), 7.2, sharex=True)
     drawn = some((row["pga_m_s2"] for row in closing), shown)
@@ -104,12 +150,12 @@ def _gaps(closing: Sequence[Row], shown: Chosen, apart: str) -> Any:
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
             _demand(panel, of_pga, demand, {**style, "label": in_g(pga)}, shaded=panel is axes[0, 0])
         panel.set_title(title)
-        if "building" in title:
+        if ": " in title:
             panel.axhline(1.0, **{**ALONE, "linewidth": 1.2})
             panel.set_ylabel("relative to no contact")
         panel.set_ylim(0, 1.05 * panel.get_ylim()[1])
     for panel in axes[1]:
-        panel.set_xlabel("gap [mm]")
+        panel.set_xlabel(gap_axis(closing))
     records = len({row["record_id"] for row in closing})
     said = f"{closing[0]['scene']}: medians of {records} records (shaded: the middle 68 %); of storeys and floors the largest"
     said += apart + left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
@@ -149,7 +195,22 @@ def _varied(closing: Sequence[Row], name: str, scene: str, shown: tuple[Chosen, 
 
 
 def gap_in_mm(row: Row) -> float:
-    return 1e3 * float(row["gap_m"])
+    """Where a gap is drawn: in mm, or as a factor on those of the scene."""
+    return float(row["gap_m"]) * (1.0 if isinstance(row["gap_m"], Factor) else 1e3)
+
+
+def gap_axis(rows: Sequence[Row]) -> str:
+    return "factor on the gaps of the scene" if isinstance(rows[0]["gap_m"], Factor) else "gap [mm]"
+
+
+def standing_in(rows: Sequence[Row]) -> list[str]:
+    """The buildings that a scene has, from left to right: others have nothing in the columns of a table."""
+    return [side for side in sides_of(rows[0]) if any(row.get(f"{side}_drift_m") is not None for row in rows)]
+
+
+def shown_of(sides: Sequence[str]) -> list[str]:
+    """Both of two buildings; of a row the ends and the one in the middle."""
+    return list(sides) if len(sides) <= MOST_BUILDINGS else [sides[0], sides[len(sides) // 2], sides[-1]]
 
 
 def _demand(
@@ -187,7 +248,7 @@ def _fragility(curves: Sequence[Curve], records: int, shown: Chosen) -> Any:
             _curve(panel, curve, styles[curve.gap])
         panel.set_title(f"P({demand.said})")
         panel.set(ylim=(-0.03, 1.03), xlim=(0, 1.04 * strongest / STANDARD_GRAVITY))
-        panel.set_xlabel(f"{INTENSITIES[drawn[0].intensity][1]} [g]{notes(drawn)}")
+        panel.set_xlabel(f"{intensity_of(drawn[0].intensity)[1]} [g]{notes(drawn)}")
         panel.tick_params(labelbottom=True)
     for panel in axes.flat[len(demands) :]:
         panel.axis("off")

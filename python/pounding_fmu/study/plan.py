@@ -14,13 +14,13 @@ import numpy as np
 
 from .. import _native, spectra
 from .._scenes import Names, read_record, read_scene, refuse, unknown
-from .cases import NEVER_CLOSES, SIDES, Case, Materials, Motion, Readings, Row, readings, varied_text
+from .cases import FACTOR, NEVER_CLOSES, Case, Materials, Motion, Readings, Row, readings, varied_text
 from .records import label, read_records
 
 if TYPE_CHECKING:
     from .._scenes import Record, Scene
 
-NEEDED = {"gaps": "a contact", "sides": "the outputs left.peak_acceleration[i] (outputs.peaks = true)"}
+NEEDED = {"gaps": "a contact", "sides": "the outputs {}.peak_acceleration[i] (outputs.peaks = true)"}
 
 
 @dataclass
@@ -30,7 +30,7 @@ class Plan:
     cases: list[Case]
     materials: Materials
     storeys: dict[str, int]
-    """Of each building in the tallest scene, and links in that with the most."""
+    """Of each building in the tallest scene, links and contacts of rows in that with the most."""
     warnings: list[str]
     strengths: dict[tuple[str, str], dict[str, tuple[float, float]]] = field(default_factory=dict)
     """By fingerprints of scene and record, of each building: period, s, and spectral acceleration there for a peak of 1."""
@@ -38,7 +38,7 @@ class Plan:
     def with_intensity(self, case: Case, row: Row) -> Row:
         """The row of a case with its case and with how strong the ground motion is for each building."""
         known: Row = {"scene": case.scene, "scene_id": case.scene_id, "record": case.record, "record_id": case.record_id}
-        known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop, "varied": case.varied}
+        known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop, "varied": case.varied, FACTOR: case.factor}
         for side, (period, strength) in self.strengths[case.scene_id, case.record_id].items():
             known |= {f"{side}_period_s": period, f"{side}_sa_m_s2": case.pga * strength}
         return known | row
@@ -66,8 +66,9 @@ def plan(
     pga: Sequence[float],
     stop: float | None,
     vary: Mapping[str, Sequence[float]],
+    factors: Sequence[float] | None = None,
 ) -> Plan:
-    """All cases, and what they need.
+    """All cases, and what they need; factors on the gaps of each scene take the place of gaps.
 
     Raises:
         ValueError: everything that is wrong with the scenes and the records.
@@ -80,19 +81,21 @@ def plan(
     motions = {key: record.samples() for key, record in read_records(records, problems).items()}
     refuse(problems)
     ids = {name: _fingerprint(*(column.tobytes() for column in motion)) for name, motion in motions.items()}
+    widths: list[tuple[float | None, float | None]] = [(gap, None) for gap in gaps] if factors is None else [(None, of) for of in factors]
     cases = [
-        Case(scene.name, scene.fingerprint, name, ids[key], peak, gap, stop or _end(scene, motions[key]), varied)
+        Case(scene.name, scene.fingerprint, name, ids[key], peak, gap, stop or _end(scene, motions[key]), varied, factor)
         for scene in found
         for key, name in ((key, label(key)) for key in motions)
         for varied in dict.fromkeys(map(varied_text, settings))
         for peak in dict.fromkeys(pga)
-        for gap in dict.fromkeys([*gaps, NEVER_CLOSES])
+        for gap, factor in dict.fromkeys([*widths, (NEVER_CLOSES, None)])
     ]
     materials = Materials(
         {scene.fingerprint: scene.text for scene in found}, {ids[key]: motion for key, motion in motions.items()}
     )
     counts = [scene.readings.counts() for scene in found]
-    storeys = {of: max(count[of] for count in counts) for of in counts[0]}
+    storeys = {of: max(count.get(of, 0) for count in counts) for of in itertools.chain(*counts)}
+    storeys[FACTOR] = int(factors is not None)
     # The same record twice, by two paths, is one.
     planned = Plan(list(dict.fromkeys(cases)), materials, storeys, _warnings(found))
     for scene in found:
@@ -131,7 +134,7 @@ def studied(label: str, scene: Scene) -> ReadScene:
     read = read_scene(scene)
     text = read.without_ground()
     of = readings(text)
-    lacking = [why for needed, why in NEEDED.items() if not getattr(of, needed)]
+    lacking = [why.format(of.buildings[0]) for needed, why in NEEDED.items() if not getattr(of, needed)]
     if lacking:
         raise ValueError(f"expected a scene with {' and '.join(lacking)}")
     return ReadScene(label, json.loads(read.layout())["name"], text, read, of)
@@ -172,7 +175,7 @@ def _strengths(scene: ReadScene, key: str, motion: Motion) -> dict[str, tuple[fl
     """Of each building its first period and the spectral acceleration there that goes with a peak of 1 m/s2."""
     times, accelerations = motion
     unit = accelerations / np.abs(accelerations).max()
-    periods: dict[str, Any] = {side: mode and mode[0] for side, mode in zip(SIDES, scene.read.first_modes())}
+    periods: dict[str, Any] = {side: mode and mode[0] for side, mode in zip(scene.read.buildings(), scene.read.first_modes())}
     try:
         return {
             side: (period, spectra.pseudo_acceleration(times, unit, period)) for side, period in periods.items() if period

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from . import table
-from .cases import Case, Row
+from .cases import FACTOR, Case, Row
 from .table import CASE, Kind, key, text
 
 TEMPORARY = ".new"
@@ -31,7 +31,8 @@ class Results:
         self.parquet = path.with_suffix(".parquet")
         self.parquet.unlink(missing_ok=True)
         found, rows = self.read(storeys)
-        self.columns = table.columns({side: max(found[side], storeys[side]) for side in storeys})
+        room = {of: max(found.get(of, 0), storeys.get(of, 0)) for of in (*storeys, *found)}
+        self.columns = table.columns(room)
         self.failed = {key(row): bool(row["error"]) for row in rows}
         if found != table.storeys_of(self.columns) or not self.path.stat().st_size:
             self.write(rows)
@@ -108,7 +109,7 @@ def lock(file: IO[str], path: Path) -> None:
 
 def columns_of(case: Case) -> Row:
     values = (case.scene, case.scene_id, case.record, case.record_id, case.pga, case.gap, case.stop, case.varied)
-    return dict(zip(CASE, values, strict=True))
+    return {**dict(zip(CASE, values, strict=True)), FACTOR: case.factor}
 
 
 def write_parquet(path: Path, columns: Mapping[str, Kind], rows: Sequence[Row]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from .cases import (
-    FOUNDATION, LINK, NEVER_CLOSES, OF_FOUNDATIONS, OF_LINKS, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed,
+    ANY_FOUNDATION, CONTACT, FACTOR, FOUNDATION, HARDEST, LINK, NEVER_CLOSES, OF_EACH_CONTACT, OF_FOUNDATIONS, OF_LINKS,
+    OF_STOREYS, OF_YIELDING, Row, collapsed, sides_of,
 )  # fmt: skip
 
 Kind = type  # of a column: str, int or float
@@ -24,39 +26,75 @@ CASE: dict[str, Kind] = {
     "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float,
     "varied": str,
 }  # fmt: skip
-INTENSITY: dict[str, Kind] = {f"{side}_{what}": float for what in ("period_s", "sa_m_s2") for side in SIDES}
-RESULT: dict[str, Kind] = {
-    "impacts": int, "peak_force_n": float, "impulse_n_s": float, "dissipated_energy_j": float,
-    **{f"{side}_{what}": float for what in ("drift_m", "acceleration_m_s2", "base_shear_n") for side in SIDES},
-}  # fmt: skip
+# Of each building.
+INTENSITY = ("period_s", "sa_m_s2")
+RESULT = ("drift_m", "acceleration_m_s2", "base_shear_n")
+# Of all.
+TOGETHER: dict[str, Kind] = {"impacts": int, "peak_force_n": float, "impulse_n_s": float, "dissipated_energy_j": float}
 # Of each storey, or floor.
 EACH = [*OF_STOREYS, "storey_shear_n"]
 # Empty where a building has no storeys of the kind: whose columns slabs can hit, with a stiffness of its own, that yield,
 # that can collapse.
-SOME: dict[str, Kind] = {
-    f"{side}_{what}": float for what in ("column_force_n", "storey_shear_n", *OF_YIELDING) for side in SIDES
-} | {f"{side}_collapsed": int for side in SIDES}
+SOME = ("column_force_n", "storey_shear_n", *OF_YIELDING)
+COLLAPSED = "collapsed"
 # The largest ratio of any storey, or floor, to the same one in the run without contact.
 RATIO_OF = {"drift_m": "drift_ratio", "acceleration_m_s2": "acceleration_ratio"}
-RATIOS: dict[str, Kind] = {f"{side}_{ratio}": float for ratio in RATIO_OF.values() for side in SIDES}
+# What there is room for that is no building.
+OTHERS = (LINK, ANY_FOUNDATION, CONTACT, FACTOR)
 FORMULA = re.compile(r"[=+\-@\t']")
 MOST_PROBLEMS = 10
 
 
 def columns(storeys: Mapping[str, int]) -> dict[str, Kind]:
-    """Name and kind of every column, for buildings of up to so many storeys, and so many links, with foundations or not."""
+    """Name and kind of every column, for buildings of up to so many storeys, and so many links and contacts of rows, with
+    foundations and factors on gaps or not."""
+    sides = [of for of in storeys if of not in OTHERS]
     of_links = [f"{LINK}_{what}[{i}]" for what in OF_LINKS for i in range(1, storeys.get(LINK, 0) + 1)]
-    of_storeys = [f"{side}_{what}[{i}]" for what in EACH for side in SIDES for i in range(1, storeys[side] + 1)]
-    of_foundations = [f"{side}_{FOUNDATION}_{what}" for what in OF_FOUNDATIONS for side in SIDES]
-    numbers = of_storeys + of_links + of_foundations * storeys.get(FOUNDATION, 0)
-    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(numbers, float) | {"error": str}
+    of_storeys = [f"{side}_{what}[{i}]" for what in EACH for side in sides for i in range(1, storeys[side] + 1)]
+    of_foundations = of_sides(sides, [f"{FOUNDATION}_{what}" for what in OF_FOUNDATIONS])
+    numbers = of_storeys + of_links + of_foundations * storeys.get(ANY_FOUNDATION, 0)
+    ratios = dict.fromkeys(of_sides(sides, RATIO_OF.values()), float)
+    return {
+        **case_columns(bool(storeys.get(FACTOR))), **always(sides), **dict.fromkeys(of_sides(sides, SOME), float),
+        **dict.fromkeys(of_sides(sides, [COLLAPSED]), int), **ratios, **dict.fromkeys(numbers, float),
+        **of_contacts(storeys.get(CONTACT, 0)), "error": str,
+    }  # fmt: skip
+
+
+def of_sides(sides: Iterable[str], parts: Iterable[str]) -> list[str]:
+    """Columns of each building, the same of all beside each other."""
+    names = list(sides)
+    return [f"{side}_{what}" for what in parts for side in names]
+
+
+def case_columns(with_factor: bool) -> dict[str, Kind]:
+    """What was set, with the factor on gaps beside the gap."""
+    if not with_factor:
+        return CASE
+    before, after = itertools.takewhile("stop_s".__ne__, CASE), itertools.dropwhile("stop_s".__ne__, CASE)
+    return {**{name: CASE[name] for name in before}, FACTOR: float, **{name: CASE[name] for name in after}}
+
+
+def always(sides: Iterable[str]) -> dict[str, Kind]:
+    """What every case has that was run, of all and of each of these buildings."""
+    names = list(sides)
+    return {**dict.fromkeys(of_sides(names, INTENSITY), float), **TOGETHER, **dict.fromkeys(of_sides(names, RESULT), float)}
+
+
+def of_contacts(count: int) -> dict[str, Kind]:
+    """Of each contact of a row of buildings."""
+    kinds: dict[str, Kind] = {what: int if what == "impacts" else float for what in OF_EACH_CONTACT}
+    each = {f"{CONTACT}_{what}[{p}]": kind for what, kind in kinds.items() for p in range(1, count + 1)}
+    return each | {HARDEST: int} if count else {}
 
 
 def storeys_of(names: Iterable[str]) -> dict[str, int]:
     """Of each building, links and foundations, as many as a table with these columns has room for."""
     known = list(names)
-    firsts = {side: f"{side}_drift_m[" for side in SIDES} | {LINK: f"{LINK}_force_n["}
-    firsts[FOUNDATION] = f"left_{FOUNDATION}_displacement_m"
+    sides = sides_of(dict.fromkeys(known))
+    firsts = {side: f"{side}_drift_m[" for side in sides}
+    firsts |= {LINK: f"{LINK}_force_n[", ANY_FOUNDATION: f"{sides[0]}_{FOUNDATION}_displacement_m"}
+    firsts |= {CONTACT: f"{CONTACT}_force_n[", FACTOR: FACTOR}
     return {of: sum(name.startswith(first) for name in known) for of, first in firsts.items()}
 
 
@@ -122,12 +160,14 @@ def row_of(known: Mapping[str, Kind], cells: Sequence[str]) -> tuple[Row, list[s
             row[name] = value(kind, cell)
         except ValueError:
             problems.append(f"{name} = {cell!r}: expected {'a whole number' if kind is int else 'a number'}")
-    problems += [f"{name}: expected a value" for name in CASE if row.get(name, "") is None]
+    # A gap, or a factor on those of the scene.
+    needed = [name for name in CASE if name != "gap_m" or row.get(FACTOR) is None]
+    problems += [f"{name}: expected a value" for name in needed if row.get(name, "") is None]
     if not row["error"]:
         # A building that is not there has nothing at all.
-        found = {name.partition("_")[0] for name in known if row.get(name) is not None}
-        absent = tuple(f"{side}_" for side in SIDES if side not in found and not found.isdisjoint(SIDES))
-        needed = [name for name in [*INTENSITY, *RESULT] if not name.startswith(absent)]
+        sides = sides_of(row)
+        found = [side for side in sides if any(row.get(name) is not None for name in of_sides([side], [*INTENSITY, *RESULT, *SOME]))]
+        needed = list(always(found or sides))
         problems += [f"{name}: expected a value, or a reason in error" for name in needed if row.get(name, 0) is None]
     return row, problems
 
@@ -142,7 +182,7 @@ def stop_at(problems: Sequence[str]) -> None:
 
 def key(row: Mapping[str, Any]) -> tuple[str, ...]:
     """What names a case in the table: its columns, numbers by their shortest text."""
-    return tuple(text(row[name]) for name in CASE)
+    return (*(text(row[name]) for name in CASE), text(row.get(FACTOR)))
 
 
 def add_ratios(rows: Sequence[Row]) -> None:
@@ -150,9 +190,9 @@ def add_ratios(rows: Sequence[Row]) -> None:
     collapsed."""
     free = {key(row): row for row in rows if not collapsed(row)}
     for row in rows:
-        alone = None if collapsed(row) else free.get(key({**row, "gap_m": NEVER_CLOSES}))
+        alone = None if collapsed(row) else free.get(key({**row, "gap_m": NEVER_CLOSES, FACTOR: None}))
         for what, ratio in RATIO_OF.items():
-            for side in SIDES:
+            for side in sides_of(row):
                 row[f"{side}_{ratio}"] = largest_ratio(row, alone, f"{side}_{what}[") if alone else None
 
 
