@@ -28,3 +28,6 @@ impl BuildingId {
         self.0 as usize
     }
 }
+
+/// A storey of a building, counted from 0; or the floor above it.
+pub type Storey = (BuildingId, usize);

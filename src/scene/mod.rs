@@ -98,7 +98,7 @@ mod side;
 mod syntax;
 mod units;
 
-pub use building_id::BuildingId;
+pub use building_id::{BuildingId, Storey};
 pub use contact_pair::{ColumnShape, ContactPair, Face};
 pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use facing::Facing;

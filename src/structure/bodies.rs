@@ -12,7 +12,7 @@
 use super::floors::Floors;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite, solve, stiffness_factor};
 use super::soil;
-use crate::scene::{Building, BuildingId, Link, Place, Places};
+use crate::scene::{Building, BuildingId, Link, Place, Places, Storey};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -98,7 +98,7 @@ impl Body {
     }
 
     /// The building to which one of its floors belongs, and its number there.
-    pub fn floor(&self, row: usize) -> Option<super::Storey> {
+    pub fn floor(&self, row: usize) -> Option<Storey> {
         let part = self.buildings.iter().find(|part| part.floors.contains(&row))?;
         Some((part.building, row - part.floors.start))
     }

@@ -27,7 +27,7 @@
 //! | `motion.rs` | displacements with velocities, a load or the ground's acceleration with its rate |
 //! | `lanes.rs`, `lane_matrix.rs`, `floor_rows.rs` | vectors in blocks of four, their sums of products, matrices between them, and single rows of these |
 
-pub use crate::scene::BuildingId;
+pub use crate::scene::{BuildingId, Storey};
 
 mod base_shear;
 mod block_increments;
@@ -76,6 +76,3 @@ pub use series::expand::{EXACT, LONGEST_ANGLE, PIECE_ANGLE, PairForces, flight_o
 pub use series::sums::{sum_sizes, sum_terms};
 pub use short_flight::{exact_order, fly_in_one_series};
 pub use soil::{SoilRows, period_ratio};
-
-/// A storey of a building, counted from 0; or the floor above it.
-pub type Storey = (BuildingId, usize);
