@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 /// A CSV file with comments: one map of column to value for each row; empty fields are left out.
-fn table(name: &str) -> Vec<HashMap<String, f64>> {
+pub fn table(name: &str) -> Vec<HashMap<String, f64>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/golden").join(name);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
@@ -24,13 +24,13 @@ fn table(name: &str) -> Vec<HashMap<String, f64>> {
     lines.map(row).collect()
 }
 
-struct Golden {
-    rows: Vec<HashMap<String, f64>>,
+pub struct Golden {
+    pub rows: Vec<HashMap<String, f64>>,
     impacts: Vec<HashMap<String, f64>>,
 }
 
 impl Golden {
-    fn new(name: &str) -> Golden {
+    pub fn new(name: &str) -> Golden {
         Golden { rows: table(&format!("{name}.displacements.csv")), impacts: table(&format!("{name}.impacts.csv")) }
     }
 
@@ -40,7 +40,7 @@ impl Golden {
         until["sensitivity"].max(1.0)
     }
 
-    fn largest(&self, quantity: &str) -> f64 {
+    pub fn largest(&self, quantity: &str) -> f64 {
         let all = self.rows.iter().flat_map(|row| row.iter().filter(|(name, _)| name.contains(quantity)));
         all.fold(0.0, |largest, (_, value)| largest.max(value.abs()))
     }
@@ -158,7 +158,23 @@ fn worst_episode(golden: &Golden, name: &str, rigid: bool, contact: usize, episo
     worst
 }
 
-fn load(scene_path: &str) -> (Scene, Record) {
+/// Worst error per unit of sensitivity of the episodes of all contacts, of a run that has been read at its end.
+pub fn worst_of_contacts(golden: &Golden, scene: &Scene, run: &Run, name: &str) -> f64 {
+    let mut episodes = run.episodes.clone();
+    let open = (0..scene.contacts.len()).filter_map(|p| run.model.open_episode(&run.state, p));
+    episodes.extend(open);
+    episodes.sort_by(|a, b| a.start.total_cmp(&b.start));
+    assert_eq!(run.point.impacts, episodes.len() as u64, "{name}: impacts of all contacts");
+    let mut impacts = 0.0_f64;
+    for (p, contact) in scene.contacts.iter().enumerate() {
+        let count = episodes.iter().filter(|episode| episode.contact == p).count();
+        assert_eq!(run.contact(p).impacts, count as u64, "{name}: impacts of contact {} are its episodes", p + 1);
+        impacts = impacts.max(worst_episode(golden, name, contact.law.is_rigid(), p, &episodes));
+    }
+    impacts
+}
+
+pub fn load(scene_path: &str) -> (Scene, Record) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(scene_path);
     let (mut scene, record) = scene::load(&path).unwrap();
     scene.energy = true;
@@ -212,17 +228,7 @@ fn compare_run(scene: &Scene, mut run: Run, case: &str, allowed: f64, advance: i
     let name = case.split(',').next().unwrap();
     let golden = Golden::new(name);
     let motion = worst_motion(&golden, &mut run, advance);
-    let mut episodes = run.episodes.clone();
-    let open = (0..scene.contacts.len()).filter_map(|p| run.model.open_episode(&run.state, p));
-    episodes.extend(open);
-    episodes.sort_by(|a, b| a.start.total_cmp(&b.start));
-    assert_eq!(run.point.impacts, episodes.len() as u64, "{name}: impacts of all contacts");
-    let mut impacts = 0.0_f64;
-    for (p, contact) in scene.contacts.iter().enumerate() {
-        let count = episodes.iter().filter(|episode| episode.contact == p).count();
-        assert_eq!(run.contact(p).impacts, count as u64, "{name}: impacts of contact {} are its episodes", p + 1);
-        impacts = impacts.max(worst_episode(&golden, name, contact.law.is_rigid(), p, &episodes));
-    }
+    let impacts = worst_of_contacts(&golden, scene, &run, name);
     println!("{case}: {motion:.1e}, episodes {impacts:.1e} per unit of sensitivity");
     assert!(motion <= allowed, "{case}: {motion:.1e} per unit of sensitivity in displacements, velocities or energies");
     assert!(impacts <= allowed, "{case}: {impacts:.1e} per unit of sensitivity in the episodes");

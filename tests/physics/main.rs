@@ -13,6 +13,7 @@ mod dying_out;
 mod events;
 mod flight_work;
 mod golden;
+mod golden_rows;
 mod golden_yielding;
 mod impacts;
 mod invariants;

@@ -21,20 +21,34 @@ static void add_storeys(real matrix[MAX_UNKNOWNS][MAX_UNKNOWNS], int first, int 
     }
 }
 
+/* The name that a line gives to a building; without one it is left, a second one right. */
+static void name_building(Scene *scene, int number, const Line *line)
+{
+    static const char *const names[] = {"left", "right"};
+    const char *name = line->count > 2 || number > 1 ? word(line, 2) : names[number];
+    for (int b = 0; b < number; b++)
+        if (strcmp(scene->building[b].name, name) == 0)
+            fail("line %d: a second building '%s'", line->number, name);
+    if (strlen(name) >= MAX_NAME || strchr(name, ':'))
+        fail("line %d: a name of less than %d characters without ':'", line->number, MAX_NAME);
+    strcpy(scene->building[number].name, name);
+}
+
 void begin_building(Reader *reader, const Line *line)
 {
     Scene *scene = reader->scene;
     int floors = (int)value(line, 1);
-    Place place = reader->floors > 0 ? RIGHT : LEFT;
-    if (scene->complete || scene->building[RIGHT].floors > 0)
-        fail("line %d: at most two buildings, before contacts and links", line->number);
+    int number = scene->buildings++;
+    if (scene->complete || scene->buildings > MAX_BUILDINGS)
+        fail("line %d: at most %d buildings, before contacts and links", line->number, MAX_BUILDINGS);
     if (floors < 1 || scene->unknowns + floors > MAX_UNKNOWNS)
         fail("1 to %d floors and ways in which foundations move altogether", MAX_UNKNOWNS);
-    *reader = (Reader){.scene = scene, .place = place, .first = scene->unknowns, .floors = floors,
+    *reader = (Reader){.scene = scene, .building = number, .first = scene->unknowns, .floors = floors,
                        .storeys = scene->storeys};
     for (int i = 0; i < floors; i++)
         reader->load[i] = -1;
-    scene->building[place] = (Building){.first = scene->unknowns, .floors = floors, .sway = -1, .rocking = -1};
+    scene->building[number] = (Building){.first = scene->unknowns, .floors = floors, .sway = -1, .rocking = -1};
+    name_building(scene, number, line);
     scene->unknowns += floors;
 }
 
@@ -75,7 +89,9 @@ static void read_yield_forces(Reader *reader, const Line *line)
     for (int i = 0; i < reader->floors; i++) {
         if (strcmp(word(line, 1 + i), "inf") == 0)
             continue;
-        Storey storey = {.place = reader->place, .number = i + 1, .k = reader->stiffness[i], .force = value(line, 1 + i)};
+        Storey storey = {.building = reader->building, .number = i + 1};
+        storey.k = reader->stiffness[i];
+        storey.force = value(line, 1 + i);
         if (!(storey.k > 0 && storey.force > 0))
             fail("line %d: a storey that yields needs a stiffness and a yield force > 0", line->number);
         storey.limit = storey.force / storey.k;
@@ -149,7 +165,7 @@ static int add_way(Scene *scene, real mass, real stiffness, real dashpot, int li
 /* sway MASS STIFFNESS DASHPOT, rocking INERTIA STIFFNESS DASHPOT */
 static void read_way(Reader *reader, const Line *line)
 {
-    Building *building = &reader->scene->building[reader->place];
+    Building *building = &reader->scene->building[reader->building];
     bool rocks = strcmp(line->word[0], "rocking") == 0;
     int *way = rocks ? &building->rocking : &building->sway;
     real numbers[3];
@@ -221,7 +237,7 @@ bool read_building_line(Reader *reader, const Line *line)
 /* What the motion of the ground moves: foundations that sway and what stands on them, else the floors. */
 static void find_ground(Scene *scene)
 {
-    for (Place b = LEFT; b <= RIGHT; b++) {
+    for (int b = 0; b < scene->buildings; b++) {
         const Building *building = &scene->building[b];
         for (int i = 0; i < building->floors && building->sway < 0; i++)
             scene->carried[building->first + i] = 1;

@@ -1,6 +1,6 @@
 """Checks the reference solver itself against closed forms: free impacts of two masses, of a mass with columns and with
 a wall, stereomechanical contact of two oscillators, impacts of three masses at once, storeys that yield, linked
-oscillators, buildings on soil.
+oscillators, buildings on soil, rows of three masses.
 
     python3 tests/reference/closed_forms.py
 
@@ -14,10 +14,11 @@ import tempfile
 from decimal import Decimal
 
 import link_forms
+import row_forms
 import soil_forms
 import yielding_forms
 
-FAMILIES = yielding_forms.FAMILIES + link_forms.FAMILIES + soil_forms.FAMILIES
+FAMILIES = yielding_forms.FAMILIES + link_forms.FAMILIES + soil_forms.FAMILIES + row_forms.FAMILIES
 HERE = pathlib.Path(__file__).parent
 M1, M2, K, V = 50000.0, 75000.0, 3.0e7, 0.5
 M = M1 * M2 / (M1 + M2)

@@ -3,7 +3,7 @@
    and foundation is the mass matrix, which is full. */
 #include "reference.h"
 
-void add_rigid(const Scene *scene, Form *form, Place building, real level, real weight)
+void add_rigid(const Scene *scene, Form *form, int building, real level, real weight)
 {
     const Building *of = &scene->building[building];
     if (of->sway >= 0)
@@ -12,7 +12,7 @@ void add_rigid(const Scene *scene, Form *form, Place building, real level, real 
         add_weight(form, of->rocking, weight * level);
 }
 
-void add_floor(const Scene *scene, Form *form, Place building, int floor, real weight)
+void add_floor(const Scene *scene, Form *form, int building, int floor, real weight)
 {
     const Building *of = &scene->building[building];
     if (floor > 0)
@@ -30,7 +30,7 @@ static void add_mass(Scene *scene, const Form *form, real mass)
 
 static void form_mass_matrix(Scene *scene)
 {
-    for (Place b = LEFT; b <= RIGHT; b++) {
+    for (int b = 0; b < scene->buildings; b++) {
         const Building *building = &scene->building[b];
         for (int i = 0; i < building->floors; i++) {
             Form floor = {.weights = 0};
@@ -76,7 +76,7 @@ void absolute(const Scene *scene, const real *unknowns, real *out)
 {
     for (int i = 0; i < scene->unknowns; i++)
         out[i] = unknowns[i];
-    for (Place b = LEFT; b <= RIGHT; b++) {
+    for (int b = 0; b < scene->buildings; b++) {
         const Building *of = &scene->building[b];
         for (int i = 0; i < of->floors; i++) {
             if (of->sway >= 0)

@@ -5,12 +5,15 @@
 
 static bool is_lowest(const Scene *scene, int floor)
 {
-    return floor == scene->building[LEFT].first || floor == scene->building[RIGHT].first;
+    for (int b = 0; b < scene->buildings; b++)
+        if (floor == scene->building[b].first)
+            return true;
+    return false;
 }
 
 void find_leans(Scene *scene)
 {
-    for (Place b = LEFT; b <= RIGHT; b++)
+    for (int b = 0; b < scene->buildings; b++)
         for (int i = 0; i < scene->building[b].floors; i++) {
             real stiffness = scene->gravity[scene->building[b].first + i];
             if (stiffness == 0)

@@ -21,7 +21,7 @@ void values(const Line *line, int from, int n, real *out);
 
 typedef struct {
     Scene *scene;
-    Place place;       /* the building that is being read */
+    int building;      /* that is being read */
     int first, floors; /* of that building; 0 floors: none has begun */
     int stiffness_rows, damping_rows;
     real stiffness[MAX_UNKNOWNS]; /* of its storeys, in a shear building */

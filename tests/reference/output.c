@@ -45,19 +45,22 @@ static void write_header(FILE *file, const char *made_by, const Scene *scene, co
     }
 }
 
-static const char *const places[] = {"left", "right", "link"};
+static const char *place(const Scene *scene, const Storey *storey)
+{
+    return storey->building == LINK ? "link" : scene->building[storey->building].name;
+}
 
 /* Of floors and foundations, in the order of the unknowns; the ways in which these move have names of their own. */
 static void write_columns(FILE *file, const Scene *scene, const char *of_floor, const char *of_sway, const char *of_rocking)
 {
     for (int i = 0; i < scene->unknowns; i++)
-        for (Place b = LEFT; b <= RIGHT; b++) {
+        for (int b = 0; b < scene->buildings; b++) {
             const Building *building = &scene->building[b];
             int floor = i - building->first;
             if (floor >= 0 && floor < building->floors)
-                fprintf(file, ",%s.%s[%d]", places[b], of_floor, 1 + floor);
+                fprintf(file, ",%s.%s[%d]", building->name, of_floor, 1 + floor);
             else if (i == building->sway || i == building->rocking)
-                fprintf(file, ",%s.foundation.%s", places[b], i == building->sway ? of_sway : of_rocking);
+                fprintf(file, ",%s.foundation.%s", building->name, i == building->sway ? of_sway : of_rocking);
         }
 }
 
@@ -126,7 +129,7 @@ static void write_storeys(FILE *file, const Scene *scene, const Solution *soluti
     fprintf(file, "time");
     for (int q = 0; q < 6; q++)
         for (int s = 0; s < scene->storeys; s++)
-            fprintf(file, ",%s.%s[%d]", places[scene->storey[s].place], quantities[q], scene->storey[s].number);
+            fprintf(file, ",%s.%s[%d]", place(scene, &scene->storey[s]), quantities[q], scene->storey[s].number);
     fprintf(file, "\n");
     for (const Row *row = solution->row; row < solution->row + solution->rows; row++) {
         fprintf(file, "%.17g", (double)row->time);
@@ -148,7 +151,7 @@ static void write_yields(FILE *file, const Scene *scene, const Solution *solutio
     fprintf(file, "building,storey,kind,time_s,drift_m,plastic_drift_m,drift_rate_m_s\n");
     for (const Switch *at = solution->switched; at < solution->switched + solution->switches; at++) {
         const Storey *storey = &scene->storey[at->storey];
-        fprintf(file, "%s,%d,%s", places[storey->place], storey->number, kinds[at->direction + 2]);
+        fprintf(file, "%s,%d,%s", place(scene, storey), storey->number, kinds[at->direction + 2]);
         put(file, at->time);
         put(file, at->drift);
         put(file, at->plastic);

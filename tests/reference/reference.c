@@ -27,7 +27,8 @@
  *   record PATH                    CSV with the columns time_s,accel_m_s2; optional
  *   scale 1                        factor on the record; or: pga 4.9
  *   min_approach_velocity 1e-4     floor on V in hertz_damped
- *   building 2                     number of floors; the first building is the left one. Then about it:
+ *   building 2 west                number of floors and name; buildings from left to right, the first one is `left` and the
+ *                                  second one `right` where they have no names. Then about it:
  *     mass 3.65 3.65
  *     stiffness 2910 2910          per storey (shear building), or one line per row of the matrix:
  *     stiffness_row 5820 -2910
@@ -47,14 +48,14 @@
  *     sway 40e3 9e7 2e6            the foundation sways: its mass, kg, spring, N/m, and dashpot, N s/m; optional
  *     rocking 9e5 2e9 1e7          and rocks: moment of inertia, kg m2, spring, N m/rad, and dashpot, N m s/rad; optional
  *     displacement 0 0.01          of the floors at the start; optional, as is velocity
- *   building 3                     the right one; may be left out
+ *   building 3 east                the next one on its right
  *     ...
  *   contact LEFT RIGHT GAP LAW [stiffness K] [exponent N] [restitution E] [damping_formula NAME]
  *
- * LEFT and RIGHT say what is on the left and on the right of a contact: the number of a floor (of the left building on
- * the left, of the right one on the right), the columns of a storey, columns:STOREY:POSITION:SHAPE with a position
- * between 0 and 1 and the shape fixed or straight, or a wall. A floor of either building beside a wall may be on either
- * side of it: left:FLOOR, right:FLOOR. Contacts follow the buildings, and so do links:
+ * LEFT and RIGHT say what is on the left and on the right of a contact: a wall, or of a building, NAME:, the number of a
+ * floor or the columns of a storey, columns:STOREY:POSITION:SHAPE with a position between 0 and 1 and the shape fixed or
+ * straight. Without its name it is the first building on the left and the second one on the right. Which buildings meet is
+ * not checked. Contacts follow the buildings, and so do links:
  *
  *   link LEFT RIGHT [stiffness K] [dashpot C] [slip_force V] [post_yield_ratio R]
  *

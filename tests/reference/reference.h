@@ -7,7 +7,7 @@
 
 typedef __float128 real;
 
-enum { MAX_UNKNOWNS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32, MAX_WEIGHTS = 8 };
+enum { MAX_BUILDINGS = 32, MAX_NAME = 64, MAX_UNKNOWNS = 128, MAX_CONTACTS = 64, MAX_STAGES = 32, MAX_WEIGHTS = 8 };
 
 /* ---- scene.c: what is to be solved ---- */
 
@@ -41,13 +41,13 @@ typedef struct {
     Law law;
 } Contact;
 
-typedef enum { LEFT, RIGHT, LINK } Place;
+enum { LINK = -1 };
 
 /* A storey that can yield, bilinear with kinematic hardening: its shear is ratio k drift + (1 - ratio) k z, z being the
    drift without the plastic drift, and |z| <= limit. The spring of a link that slips is one as well. */
 typedef struct {
-    Place place;
-    int number; /* from 1, of the storey of its building, or of the link */
+    int building; /* LINK: of a link */
+    int number;   /* from 1, of the storey of its building, or of the link */
     Form form; /* its drift; of a link: how much nearer its ends have come */
     real k, ratio, force, limit; /* limit = force / k */
     real collapse; /* |drift| at which it has collapsed, which ends the run; 0: never */
@@ -61,6 +61,7 @@ typedef struct {
 /* The unknowns of a building are the displacements of its floors relative to its foundation, which may sway and rock: a
    floor moves by its own unknown + that of swaying + its level times that of rocking. */
 typedef struct {
+    char name[MAX_NAME];
     int first, floors;       /* the lowest floor in the vector of all unknowns; their number */
     int sway, rocking;       /* unknowns of the foundation, m and rad (positive: leans to the right); -1: it does not move so */
     real level[MAX_UNKNOWNS]; /* m, of its floors above the foundation; 0 where that does not rock */
@@ -73,8 +74,9 @@ typedef struct {
 } Lean;
 
 typedef struct {
-    int unknowns;         /* those of the left building first in every vector, floors before foundation */
-    Building building[2]; /* LEFT, RIGHT; the second may have no floors */
+    int unknowns;  /* building by building from left to right in every vector, floors before foundation */
+    int buildings; /* each is a neighbour of the next one */
+    Building building[MAX_BUILDINGS];
     real mass[MAX_UNKNOWNS]; /* of floors and foundations; where a foundation rocks, its moment of inertia and theirs */
     real carried[MAX_UNKNOWNS]; /* how fast the unknowns change where everything on the ground moves with 1 m/s */
     real pulled[MAX_UNKNOWNS];  /* masses on which the ground acts: those in `mass`, but no inertia */
@@ -120,9 +122,9 @@ void solve_linear(int n, real a[MAX_CONTACTS][MAX_CONTACTS], real *b);
 /* ---- foundation.c: floors on foundations that move ---- */
 
 /* Adds weight times the displacement of something that moves with a foundation, at a level above it. */
-void add_rigid(const Scene *scene, Form *form, Place building, real level, real weight);
+void add_rigid(const Scene *scene, Form *form, int building, real level, real weight);
 /* Adds weight times the displacement of a floor, from 1; 0: the foundation. */
-void add_floor(const Scene *scene, Form *form, Place building, int floor, real weight);
+void add_floor(const Scene *scene, Form *form, int building, int floor, real weight);
 /* Factors the mass matrix of the unknowns. */
 void factor_masses(Scene *scene);
 /* Replaces a vector by the mass matrix^-1 times it. */

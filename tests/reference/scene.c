@@ -125,7 +125,7 @@ static LawKind law_kind(const char *name, int line)
 }
 
 /* The displacement of a floor, from 1, or of a foundation that moves, 0. */
-static void add_end(const Scene *scene, Form *form, Place building, int floor, real weight, int line)
+static void add_end(const Scene *scene, Form *form, int building, int floor, real weight, int line)
 {
     const Building *of = &scene->building[building];
     int lowest = of->sway >= 0 || of->rocking >= 0 ? 0 : 1;
@@ -136,7 +136,7 @@ static void add_end(const Scene *scene, Form *form, Place building, int floor, r
 
 /* columns:STOREY:POSITION:SHAPE: relative to the foundation the columns move as the floors below and above do, in shares
    1 - N and N; with it as whatever is at their level does. */
-static void add_columns(const Scene *scene, Form *form, Place building, const char *place, real sign, int line)
+static void add_columns(const Scene *scene, Form *form, int building, const char *place, real sign, int line)
 {
     const Building *of = &scene->building[building];
     int storey;
@@ -155,28 +155,40 @@ static void add_columns(const Scene *scene, Form *form, Place building, const ch
     add_rigid(scene, form, building, bottom + s * (top - bottom), sign);
 }
 
-/* What is on the left or right of a contact or link. */
-static void add_place(const Scene *scene, Form *form, Place side, const char *place, int line)
+/* Where a place begins with the name of a building, it goes on after that. */
+static void take_name(const Scene *scene, const char **place, int *building)
 {
-    real sign = side == LEFT ? 1 : -1;
+    size_t length = strcspn(*place, ":");
+    for (int b = 0; b < scene->buildings && (*place)[length]; b++)
+        if (strlen(scene->building[b].name) == length && strncmp(*place, scene->building[b].name, length) == 0) {
+            *building = b;
+            *place += length + 1;
+            return;
+        }
+}
+
+/* What is on the left or right of a contact or link. */
+static void add_place(const Scene *scene, Form *form, bool left, const char *place, int line)
+{
     if (strcmp(place, "wall") == 0)
         return;
+    real sign = left ? 1 : -1;
+    int building = left ? 0 : 1;
+    take_name(scene, &place, &building);
+    if (building >= scene->buildings)
+        fail("line %d: no such building", line);
     if (strncmp(place, "columns:", 8) == 0)
-        add_columns(scene, form, side, place, sign, line);
-    else if (strncmp(place, "left:", 5) == 0)
-        add_end(scene, form, LEFT, (int)number(place + 5, "input", line), sign, line);
-    else if (strncmp(place, "right:", 6) == 0)
-        add_end(scene, form, RIGHT, (int)number(place + 6, "input", line), sign, line);
+        add_columns(scene, form, building, place, sign, line);
     else
-        add_end(scene, form, side, (int)number(place, "input", line), sign, line);
+        add_end(scene, form, building, (int)number(place, "input", line), sign, line);
 }
 
 /* What is between the left and the right of a line: how much nearer they have come. */
 static Form read_ends(const Scene *scene, const Line *line)
 {
     Form form = {.weights = 0};
-    for (Place side = LEFT; side <= RIGHT; side++)
-        add_place(scene, &form, side, word(line, 1 + side), line->number);
+    add_place(scene, &form, true, word(line, 1), line->number);
+    add_place(scene, &form, false, word(line, 2), line->number);
     if (form.weights == 0)
         fail("line %d: something that moves on at least one side", line->number);
     find_pushes(scene, &form);
@@ -228,7 +240,7 @@ static void add_slip(Scene *scene, const Storey *slip, int line)
 /* link LEFT RIGHT [key value ...] */
 static void read_link(Scene *scene, const Line *line)
 {
-    Storey slip = {.place = LINK, .number = ++scene->links, .form = read_ends(scene, line)};
+    Storey slip = {.building = LINK, .number = ++scene->links, .form = read_ends(scene, line)};
     const Form *ends = &slip.form;
     real dashpot = 0;
     bool slips = false;
@@ -274,8 +286,6 @@ void read_scene(const char *path, Scene *scene)
     if (!file)
         fail("cannot open %s", path);
     *scene = (Scene){.stop = -1, .min_approach_velocity = 1e-4 /* the nearest double */};
-    for (Place b = LEFT; b <= RIGHT; b++)
-        scene->building[b] = (Building){.sway = -1, .rocking = -1};
     static Line line;
     Reader reader = {.scene = scene};
     real scale = 1, pga = 0;

@@ -10,7 +10,7 @@ import os
 import tomllib
 from decimal import Decimal
 
-from facing import contacts, position
+from facing import contacts, neighbours, position, row
 
 # What is in t or with kN where a scene says so.
 IN_KN_T = {
@@ -69,7 +69,7 @@ def foundation_lines(building):
 
 
 def building_lines(building):
-    lines = [f"building {len(building['mass'])}", f"mass {numbers(building['mass'])}"]
+    lines = [f"building {len(building['mass'])} {building['name']}", f"mass {numbers(building['mass'])}"]
     if "stiffness" in building:
         lines.append(f"stiffness {numbers(building['stiffness'])}")
     else:
@@ -88,17 +88,17 @@ def building_lines(building):
 
 
 def place(scene, contact, side):
-    """What is on one side of a contact."""
+    """What is on one side of a contact or link."""
     if contact.get("wall") == side:
         return "wall"
+    if "wall" in contact:
+        # The one building, whose floor may be named on the side of the wall.
+        side, = (key[:-6] for key in contact if key.endswith("_floor"))
+    name = neighbours(scene, contact)[side]["name"]
     if f"{side}_storey" in contact:
         share = float(contact.get(f"{side}_position", position(scene, contact, side)))
-        return f"columns:{contact[f'{side}_storey']}:{share!r}:{contact.get('column_shape', 'fixed')}"
-    if f"{side}_floor" in contact:
-        return str(contact[f"{side}_floor"])
-    # A wall on the other side of a floor of the other building, which is named on its own side.
-    (building, floor), = ((key[:-6], value) for key, value in contact.items() if key.endswith("_floor"))
-    return f"{building}:{floor}"
+        return f"{name}:columns:{contact[f'{side}_storey']}:{share!r}:{contact.get('column_shape', 'fixed')}"
+    return f"{name}:{contact[f'{side}_floor']}"
 
 
 def contact_line(scene, contact):
@@ -144,9 +144,8 @@ def convert(path, step, stop, record):
     lines += record_lines(scene.get("ground", {}), os.path.dirname(path), record)
     if "min_approach_velocity" in scene.get("solver", {}):
         lines.append(f"min_approach_velocity {numbers([scene['solver']['min_approach_velocity']])}")
-    for side in ("left", "right"):
-        if side in scene:
-            lines += building_lines(scene[side])
+    for building in row(scene):
+        lines += building_lines(building)
     lines += [contact_line(scene, contact) for contact in contacts(scene)]
     return lines + [link_line(scene, link) for link in scene.get("link", [])]
 
