@@ -83,9 +83,9 @@ impl Model {
         self.system.structure.ids()
     }
 
-    /// Number of floors of a building.
+    /// Number of floors of a building; 0 of one that is not there.
     pub fn floors(&self, id: BuildingId) -> usize {
-        self.system.structure.floors(id)
+        if id.index() < self.system.structure.ids().count() { self.system.structure.floors(id) } else { 0 }
     }
 
     /// Number of contacts.
