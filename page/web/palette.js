@@ -1,11 +1,13 @@
 // Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and
-// dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
+// dashed or hatched; in a row each building has one of eight in turn, every second one dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
 
 const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "right-text", "flash", "flash-edge"];
+const ROW = Array.from({ length: 8 }, (_, at) => `row-${at + 1}`);
 const LINES = {
   left: ["--left", "--left-2", "--left-3", "--left-4"],
   right: ["--right", "--right-2", "--right-3", "--right-4"],
   others: ["--ink", "--line-1", "--line-2", "--line-3", "--line-4", "--line-5"],
+  ...Object.fromEntries(ROW.map((name) => [name, [`--${name}`]])),
 };
 const DASHES = {
   left: [[], [2, 3], [12, 3, 2, 3]],
@@ -16,6 +18,7 @@ const DASHES = {
   ],
   others: [[], [8, 4], [2, 3]],
 };
+ROW.forEach((name, at) => (DASHES[name] = at % 2 ? DASHES.right : DASHES.left));
 
 let probe = null;
 let known = new Map();
@@ -31,7 +34,7 @@ export function colour(name) {
   return known.get(property);
 }
 
-export const colours = () => Object.fromEntries(NAMES.map((name) => [name, colour(name)]));
+export const colours = () => Object.fromEntries([...NAMES, ...ROW].map((name) => [name, colour(name)]));
 
 export function forgetColours() {
   known = new Map();
