@@ -25,6 +25,8 @@ const FOOT = 36;
 const LETTER = 7;
 const LONGEST_NAME = 84;
 const NAME_LINE = 13;
+// Pixels of a building in a row whose soil there is room for: below narrower ones stands one part on each side.
+const ROOMY = 120;
 // Pixels of a wall beside the row, and between two buildings.
 const WALL = 46;
 const THIN_WALL = 8;
@@ -59,6 +61,8 @@ export class Drawing {
     this.storey = storey;
     this.largestFlash = Math.max(14, 0.5 * storey + 4);
     this.slab = Math.max(1, Math.min(11, 0.16 * storey));
+    this.isCrowded = geometry.buildings.length > 2 && place.width < ROOMY;
+    this.out = geometry.buildings.length > 2 ? 0 : OUT;
     this.column = Math.max(1.5, Math.min(6, 0.035 * place.width));
     this.hatch = makeHatch(context, colours);
   }
@@ -184,28 +188,31 @@ export class Drawing {
   #foundation(at, moved) {
     const { context, place, geometry, colours } = this;
     const { levels, soil } = geometry.buildings[at];
-    const { sway, rocking } = soil;
+    const { sway } = soil;
+    const rocking = this.isCrowded ? soil.rocking.slice(0, 1) : soil.rocking;
     const [top, ground] = [place.y(levels[0]), this.#groundOf(at)];
-    const [rest, x] = [geometry.atRest(), moved].map((one) => this.#edges(at, one)[0] - OUT);
-    const [wide, slope] = [place.width + 2 * OUT, this.#slope(at, 1, moved)];
+    const [rest, x] = [geometry.atRest(), moved].map((one) => this.#edges(at, one)[0] - this.out);
+    const [wide, slope] = [place.width + 2 * this.out, this.#slope(at, 1, moved)];
     const devices = new Devices(context, colours, Infinity);
     for (const sign of [-1, 1]) {
       rocking.forEach((part, row) => {
-        const aside = sign * (wide / 2 - POST - row * BESIDE);
+        const aside = sign * (wide / 2 - Math.min(POST, wide / 4) - row * BESIDE);
         const from = { x: rest + wide / 2 + aside, y: ground };
         const to = { x: x + wide / 2 + aside, y: top + THICK + slope * aside };
         devices.upright(part, from, to, ground - top - THICK);
       });
     }
-    if (sway.length > 0) this.#sway(devices, at, sway, { top, rest, x, wide });
+    if (sway.length > 0) this.#sway(devices, at, sway, { top, rest, x, wide, rocks: rocking.length > 0 });
     this.#tilted(at, { x, y: top + THICK / 2, wide, high: THICK, slope });
   }
 
-  // Beside the first and the last building of a row, away from the others; below one that has neighbours on both sides.
-  #sway(devices, at, parts, { top, rest, x, wide }) {
+  // Beside the first and the last building of a row, away from the others; below one that has neighbours on both
+  // sides, where there is room.
+  #sway(devices, at, parts, { top, rest, x, wide, rocks }) {
     const isLast = at > 0 && at === this.geometry.buildings.length - 1;
     const grounded = isLast ? "right" : "left";
     if (at > 0 && !isLast) {
+      if (this.isCrowded && rocks) return;
       const [from, to] = [rest + wide / 4, x + (3 * wide) / 4].map((place) => ({ x: place, y: top + THICK }));
       return devices.draw({ parts, from, to, rest: wide / 2, keys: [at], slab: 0, grounded, slips: false });
     }
@@ -283,9 +290,8 @@ export class Drawing {
     geometry.links.forEach((link, at) => {
       const rest = this.#linkAt(link, geometry.atRest());
       const [from, to] = this.#linkAt(link, moved, rest);
-      const keys = SIDES.map(
-        (side, on) => `${link.passed - 1 + on} ${link.surfaces[side].floor ?? link.surfaces[SIDES[1 - on]].floor}`,
-      );
+      const floorOf = (on) => link.surfaces[SIDES[on]].floor ?? link.surfaces[SIDES[1 - on]].floor;
+      const keys = SIDES.map((side, on) => `${link.passed} ${side} ${floorOf(on)}`);
       const length = Math.hypot(rest[1].x - rest[0].x, rest[1].y - rest[0].y);
       const grounded = SIDES.find((side) => link.surfaces[side].kind === "wall");
       devices.draw({ parts: link.parts, from, to, rest: length, keys, slab, grounded, slips: slipping[at] });
