@@ -37,7 +37,7 @@ export function layOut(geometry, box, reach, size) {
   const most = Math.max(2, count);
   const pit = geometry.hasSoil ? PIT : 0;
   const longest = LETTER * Math.max(...geometry.names.map(({ length }) => length));
-  const isUpright = count > 2 && longest > (0.92 * box.width) / count - LETTER;
+  const isUpright = count > 2 && longest > (0.75 * box.width) / count - LETTER;
   const foot = FOOT + (isUpright ? Math.min(longest, LONGEST_NAME) : 0);
   const height = box.height - 38 - foot - pit;
   const up = height / (geometry.top - geometry.bottom);

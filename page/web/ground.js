@@ -240,7 +240,7 @@ export class Ground {
     const { min, max } = plot.scales.x;
     const known = this.#known().filter(({ period }) => period >= min && period <= max);
     const shortest = Math.min(...known.map(({ period }) => period));
-    for (const one of known) markPeriod(plot, one, known.length > 1 && one.period === shortest);
+    known.forEach((one, which) => markPeriod(plot, { ...one, which }, known.length > 1 && one.period === shortest));
   }
 
   // First periods of those buildings that the charts show, on a fixed base, and what soil makes of them.
@@ -268,10 +268,10 @@ export class Ground {
   }
 }
 
-function markPeriod(plot, { name, kind, period }, isLeftmost) {
+function markPeriod(plot, { name, kind, period, which }, isLeftmost) {
   const { ctx: context, bbox } = plot;
   const ratio = devicePixelRatio || 1;
-  const { stroke, dash } = lineLook(kind, 0);
+  const { stroke, dash } = lineLook(kind, 0, which);
   context.save();
   const x = drawUpright(plot, period, stroke, dash.slice(0, 2));
   context.fillStyle = stroke;

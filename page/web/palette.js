@@ -1,5 +1,5 @@
 // Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and
-// dashed or hatched; in a row each building has one of eight in turn, every second one dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
+// dashed or hatched; in a row each building has one of eight in turn, and every second one is dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
 
 const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "right-text", "flash", "flash-edge"];
 const ROW = Array.from({ length: 8 }, (_, at) => `row-${at + 1}`);
@@ -18,7 +18,6 @@ const DASHES = {
   ],
   others: [[], [8, 4], [2, 3]],
 };
-ROW.forEach((name, at) => (DASHES[name] = at % 2 ? DASHES.right : DASHES.left));
 
 let probe = null;
 let known = new Map();
@@ -40,9 +39,11 @@ export function forgetColours() {
   known = new Map();
 }
 
-// Colour and dash of the line in a place among those of its kind.
-export function lineLook(kind, place) {
-  const [names, dashes] = [LINES[kind] ?? LINES.others, DASHES[kind] ?? DASHES.others];
+// Colour and dash of the line in a place among those of its kind; where buildings of a row are drawn together, every second
+// one is dashed, whichever it is.
+export function lineLook(kind, place, building = 0) {
+  const ofRow = building % 2 ? DASHES.right : DASHES.left;
+  const [names, dashes] = [LINES[kind] ?? LINES.others, ROW.includes(kind) ? ofRow : (DASHES[kind] ?? DASHES.others)];
   return {
     stroke: colour(names[place % names.length]),
     dash: dashes[Math.floor(place / names.length) % dashes.length],

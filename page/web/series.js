@@ -57,12 +57,14 @@ export function usualFloors(look, buildings) {
 
 function floorLines(run, part, { buildings, floors }) {
   const names = namesOf(run.look);
-  return buildings.flatMap((building) => {
+  return buildings.flatMap((building, which) => {
     const drawn = columnsOf(run, building, part)
       .filter(([, floor]) => floors.has(`${building} ${floor}`))
       .reverse();
     const kind = kindOf(names, building);
-    return drawn.map(([name, floor], at) => ({ name, label: `${building} ${floor}`, look: () => lineLook(kind, at) }));
+    return drawn.map(([name, floor], at) => {
+      return { name, label: `${building} ${floor}`, look: () => lineLook(kind, at, which) };
+    });
   });
 }
 
@@ -72,7 +74,9 @@ function foundationLines(run, part, { buildings }) {
   const known = buildings.map((building) => [`${building}.foundation.${part}`, building]);
   return known
     .filter(([name]) => run.columns[name])
-    .map(([name, building]) => ({ name, label: building, look: () => lineLook(kindOf(names, building), 0) }));
+    .map(([name, building], which) => {
+      return { name, label: building, look: () => lineLook(kindOf(names, building), 0, which) };
+    });
 }
 
 const ENERGIES = [

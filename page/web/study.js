@@ -116,10 +116,10 @@ export class Study {
         "largest drift",
         drift,
         x,
-        mostDrifting(drifts).map(({ name, values }) => ({
+        mostDrifting(drifts).map(({ name, values }, which) => ({
           label: name,
           values: of(values, drift),
-          ...lineLook(kindOf(names, name), 0),
+          ...lineLook(kindOf(names, name), 0, which),
         })),
       ),
       this.#plot("impacts", { name: "" }, x, [{ label: "count", values: impacts, ...lineLook("others", 0) }]),
