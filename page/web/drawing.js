@@ -114,8 +114,9 @@ export class Drawing {
 
   // Between two buildings, or at the edge of the last one.
   #amidGap(passed) {
-    const [left, right] = [this.geometry.buildings[passed - 1], this.geometry.buildings[passed] ?? { edges: [] }];
-    return this.place.x((left.edges[0] + (right.edges[0] ?? left.edges[0])) / 2, passed);
+    const { edges } = this.geometry.buildings[passed - 1];
+    const next = this.geometry.buildings[passed]?.edges ?? edges;
+    return this.place.x((edges[0] + next[0]) / 2, passed);
   }
 
   // Below its building; upright where there is no room, and not of every building where there is none for that either.
