@@ -1,5 +1,6 @@
-// Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and
-// dashed or hatched; in a row each building has one of eight in turn, and every second one is dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
+// Colours and dashes: Okabe and Ito's and some of Tol's, which colour-blind eyes tell apart. Left is cold and solid, right warm
+// and dashed or hatched; in a row each building has one of eight in turn, and every second one is dashed or hatched. The style
+// sheet has the values, light and dark; what is drawn on a canvas asks here.
 
 const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "right-text", "flash", "flash-edge"];
 const ROW = Array.from({ length: 8 }, (_, at) => `row-${at + 1}`);
