@@ -22,10 +22,9 @@ pub fn look(given: &Given<'_>) -> Result<Answer, Refusal> {
         "stop": scenario.stop(),
         "stopTime": scene.stop_time,
         "layout": Layout::of(scene),
-        "left": building(scene.buildings.first()),
-        "right": building(scene.buildings.get(1)),
+        "buildings": scene.buildings.iter().map(building).collect::<Vec<_>>(),
         "contacts": contacts(&scenario),
-        "facing": scene.facing.is_some(),
+        "facing": scene.facing.map(|facing| json!({ "contacts": facing.contacts, "hasGaps": facing.has_gaps })),
         "energy": scene.energy,
         "peaks": scene.peaks,
         "ground": ground(scene, &scenario),
@@ -34,9 +33,8 @@ pub fn look(given: &Given<'_>) -> Result<Answer, Refusal> {
     Answer::json(&told, Vec::new())
 }
 
-/// Masses, kg, stiffnesses, N/m, heights of storeys, m, and periods, s, of a building; nothing where there is none.
-fn building(building: Option<&Building>) -> Value {
-    let Some(building) = building else { return Value::Null };
+/// Masses, kg, stiffnesses, N/m, heights of storeys, m, and periods, s, of a building, and where it stands in the text.
+fn building(building: &Building) -> Value {
     let stiffness = match &building.stiffness {
         Stiffness::Shear(each) => Some(each),
         _ => None,
@@ -46,6 +44,8 @@ fn building(building: Option<&Building>) -> Value {
     let height =
         |storey: usize| building.heights.as_ref().map(|heights| heights.level(storey + 1) - heights.level(storey));
     json!({
+        "name": building.name,
+        "path": building.path,
         "floors": building.mass.len(),
         "mass": building.mass,
         "stiffness": stiffness,

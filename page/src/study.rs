@@ -4,6 +4,7 @@ use crate::job::Job;
 use crate::message::{Answer, Refusal};
 use crate::scene::Given;
 use pounding::engine::Point;
+use pounding::scene::Scene;
 use pounding::variables::{Parameter, Slot};
 use pounding_simulate::readings::Reading;
 use pounding_simulate::scenario::Scenario;
@@ -37,7 +38,7 @@ pub fn begin(given: &Given<'_>, gaps: Vec<f64>) -> Result<(impl Job + use<>, Ans
     }
     let (references, names): (Vec<u32>, Vec<&str>) = (0_u32..)
         .zip(&scenario.table.rows)
-        .filter(|(_, row)| is_read(&row.name))
+        .filter(|(_, row)| is_read(&scenario.settings.scene, &row.name))
         .map(|(reference, row)| (reference, row.name.as_str()))
         .unzip();
     let stop = scenario.stop();
@@ -47,11 +48,11 @@ pub fn begin(given: &Given<'_>, gaps: Vec<f64>) -> Result<(impl Job + use<>, Ans
 }
 
 /// What is read at the end of each run.
-fn is_read(name: &str) -> bool {
-    let of_building = |name: &str| name.starts_with("peak_drift[") || name == "peak_base_shear";
-    let building = name.strip_prefix("left.").or_else(|| name.strip_prefix("right."));
-    let of_contact = name.starts_with("contact[") && name.ends_with("].peak_force");
-    name == "impacts" || of_contact || building.is_some_and(of_building)
+fn is_read(scene: &Scene, name: &str) -> bool {
+    let Some((whole, part)) = name.split_once('.') else { return name == "impacts" };
+    let is_building = scene.buildings.iter().any(|building| building.name == whole);
+    let of_building = part.starts_with("peak_drift[") || part == "peak_base_shear";
+    is_building && of_building || whole.starts_with("contact[") && part == "peak_force"
 }
 
 impl Job for Study {

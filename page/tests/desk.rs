@@ -117,6 +117,49 @@ fn findings_have_their_lines() {
     assert_eq!((&found[0]["kind"], &found[0]["line"]), (&json!("problem"), &json!(line(&wrong, "mass = [0]"))));
 }
 
+/// One floor and its height.
+fn building(name: &str) -> String {
+    let keys = "mass = [1e3]\nstiffness = [4e4]\ndamping = { ratio = 0.02 }\nheight = [3.0]\ninitial_velocity = [0.5]";
+    format!("[[building]]\nname = \"{name}\"\n{keys}\n")
+}
+
+fn row(names: &[&str], gaps: &str) -> String {
+    let buildings: String = names.iter().map(|name| building(name)).collect();
+    let facing = format!("[facing]\ngap = {gaps}\nlaw = \"hertz\"\nstiffness = 1e8\n");
+    format!("name = \"Row\"\nstop_time = 3.0\n{buildings}{facing}")
+}
+
+#[test]
+fn a_row_is_looked_at_and_marked_by_its_places() {
+    let mut desk = Desk::new();
+    let mut say = |call: &str, scene: &str| ask(&mut desk, &json!({ "call": call }), &[scene.as_bytes()]).unwrap().0;
+    let told = say("look", &row(&["a", "b", "c"], "[0.01, 0.02]"));
+    let of = |key: &str| told["buildings"].as_array().unwrap().iter().map(|one| one[key].clone()).collect::<Vec<_>>();
+    assert_eq!((of("name"), of("floors")), (vec![json!("a"), json!("b"), json!("c")], vec![json!(1); 3]));
+    assert_eq!(of("path"), [json!("building[1]"), json!("building[2]"), json!("building[3]")]);
+    assert_eq!(told["facing"], json!({ "contacts": 2, "hasGaps": true }));
+    let pair = say("look", SCENE);
+    assert_eq!((&pair["buildings"][1]["path"], &pair["facing"]), (&json!("right"), &Value::Null));
+    let wrong = row(&["a", "b", "c"], "0.01").replace(&building("c"), &building("c").replace("[1e3]", "[0]"));
+    let found = say("findings", &wrong);
+    let line = wrong.lines().position(|line| line == "mass = [0]").map(|line| line + 1);
+    assert_eq!((&found[0]["path"], &found[0]["line"]), (&json!("building[3].mass[1]"), &json!(line)));
+}
+
+#[test]
+fn a_study_reads_every_building() {
+    let mut desk = Desk::new();
+    let scene = row(&["a", "b", "c"], "0.01");
+    let (begun, _) = ask(&mut desk, &json!({ "call": "study", "gaps": [0.001, 0.5] }), &[scene.as_bytes()]).unwrap();
+    let read: Vec<&str> = begun["columns"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    for building in ["a", "b", "c"] {
+        for part in ["peak_drift[1]", "peak_base_shear"] {
+            assert!(read.contains(&format!("{building}.{part}").as_str()), "{read:?}");
+        }
+    }
+    assert_eq!(read.len(), 9, "{read:?}");
+}
+
 #[test]
 fn a_record_that_has_not_been_given_is_named() {
     let scene = format!("{SCENE}[ground]\nrecord = \"a.csv#1\"\n");

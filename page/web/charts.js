@@ -3,6 +3,7 @@
 import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame, settled } from "./make.js";
 import { rowBefore } from "./motion.js";
+import { chartedOf } from "./pair.js";
 import { colour } from "./palette.js";
 import { describePlot, makePlot, widthOf } from "./plots.js";
 import { chartsOf, usualFloors } from "./series.js";
@@ -13,13 +14,13 @@ const MOST_DOTS = 2000;
 
 export class Charts {
   constructor(state, player) {
-    Object.assign(this, { state, player, plots: [], floors: new Set(), known: "" });
+    Object.assign(this, { state, player, plots: [], buildings: [], floors: new Set(), known: "" });
     this.update = onceAFrame(() => this.#update());
     this.describe = settled(
       () => this.plots.forEach(({ plot, heading }) => describePlot(plot, heading.textContent)),
       500,
     );
-    state.on("run", () => this.#newRun());
+    state.on(["run", "buildings"], () => this.#newRun());
     state.on("colours", () => this.draw());
     state.on("time", () => this.#moment());
     state.on("stretch", () => this.#stretch());
@@ -29,9 +30,12 @@ export class Charts {
 
   #newRun() {
     const { run } = this.state;
-    const key = JSON.stringify([run.look.name, run.look.left?.floors, run.look.right?.floors]);
+    const key = JSON.stringify([run.look.name, run.look.buildings.map(({ name, floors }) => [name, floors])]);
     const longer = this.stop !== run.stop;
-    if (key !== this.known) this.#listFloors(run.look);
+    const buildings = chartedOf(this.state, run.look);
+    const others = buildings.join() !== this.buildings.join();
+    this.buildings = buildings;
+    if (key !== this.known || others) this.#listFloors(run.look);
     if (key !== this.known || longer) this.state.show(0, run.stop);
     [this.known, this.stop] = [key, run.stop];
     this.draw();
@@ -41,7 +45,7 @@ export class Charts {
   draw() {
     const { run } = this.state;
     if (!run) return;
-    const wanted = chartsOf(run, this.floors);
+    const wanted = chartsOf(run, this);
     const names = JSON.stringify(wanted.map(({ id, lines }) => [id, lines.map(({ name }) => name)])) + colour("ink");
     if (names !== this.names) this.#build(wanted);
     this.names = names;
@@ -200,13 +204,12 @@ export class Charts {
   }
 
   #listFloors(look) {
-    this.floors = new Set(usualFloors(look));
+    this.floors = new Set(usualFloors(look, this.buildings));
     const list = element("floor-choice");
     list.replaceChildren();
-    for (const side of ["left", "right"]) {
-      const count = look[side]?.floors ?? 0;
-      const every = Math.ceil(count / CHOICE) || 1;
-      for (let floor = count; floor > 0; floor -= every) this.#floorBox(list, `${side} ${floor}`);
+    for (const { name, floors } of look.buildings.filter(({ name }) => this.buildings.includes(name))) {
+      const every = Math.ceil(floors / CHOICE) || 1;
+      for (let floor = floors; floor > 0; floor -= every) this.#floorBox(list, `${name} ${floor}`);
     }
   }
 

@@ -20,30 +20,49 @@ const OUT = 6;
 const POST = 14;
 const BESIDE = 20;
 const PIT = 54;
+// Pixels below the ground, of a letter of a name, of the longest name that stands upright, from one upright name to the next.
+const FOOT = 36;
+const LETTER = 7;
+const LONGEST_NAME = 84;
+const NAME_LINE = 13;
+// Pixels of a building in a row whose soil there is room for: below narrower ones stands one part on each side.
+const ROOMY = 120;
+// Pixels of a wall beside the row, and between two buildings.
+const WALL = 46;
+const THIN_WALL = 8;
 
-// How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
+// How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards. Buildings are equally wide.
 export function layOut(geometry, box, reach, size) {
-  const two = geometry.sides.length === 2;
-  const pit = Object.keys(geometry.soil).length > 0 ? PIT : 0;
-  const height = box.height - 74 - pit;
+  const count = geometry.buildings.length;
+  const most = Math.max(2, count);
+  const pit = geometry.hasSoil ? PIT : 0;
+  const longest = LETTER * Math.max(...geometry.names.map(({ length }) => length));
+  const isUpright = count > 2 && longest > (0.75 * box.width) / count - LETTER;
+  const foot = FOOT + (isUpright ? Math.min(longest, LONGEST_NAME) : 0);
+  const height = box.height - 38 - foot - pit;
   const up = height / (geometry.top - geometry.bottom);
-  const width = Math.max(44, Math.min(0.3 * box.width, 0.62 * height, 210));
-  const room = Math.max(16, Math.min(0.15 * box.width, (0.92 * box.width - (two ? 2 : 1) * width) / 2.6));
-  const across = (room / Math.max(reach, geometry.gap, 1e-6)) * 2 ** size;
-  const middle = geometry.sides.includes("left") ? (two ? geometry.gap / 2 : -width / across / 2) : width / across / 2;
-  const x = (metres) => box.x + box.width / 2 + (metres - middle) * across;
-  const y = (level) => box.y + box.height - 36 - pit - (level - geometry.bottom) * up;
-  return { box, up, across, x, y, width, farthest: reach * across };
+  const width = Math.min((0.6 * box.width) / most, 0.62 * height, 210);
+  const unit = Math.max(reach, geometry.gap, 1e-6);
+  const rooms = Math.max(2.6, geometry.span / unit + 1.6);
+  const room = Math.min(0.15 * box.width, (0.92 * box.width - count * width) / rooms);
+  const across = (room / unit) * 2 ** size;
+  // Of a place in m behind so many buildings.
+  const x = (metres, passed) =>
+    box.x + box.width / 2 + (metres - geometry.span / 2) * across + (passed - count / 2) * width;
+  const y = (level) => box.y + box.height - foot - pit - (level - geometry.bottom) * up;
+  return { box, up, across, x, y, width, isUpright, base: box.y + box.height - foot, farthest: reach * across };
 }
 
 export class Drawing {
   constructor(context, geometry, place, colours) {
     Object.assign(this, { context, geometry, place, colours });
-    const storeys = Math.max(geometry.floors.left, geometry.floors.right);
-    const storey = ((geometry.top - geometry.bottom) * place.up) / Math.max(1, storeys);
+    const storeys = Math.max(1, ...geometry.buildings.map(({ levels }) => levels.length - 1));
+    const storey = ((geometry.top - geometry.bottom) * place.up) / storeys;
     this.storey = storey;
     this.largestFlash = Math.max(14, 0.5 * storey + 4);
     this.slab = Math.max(1, Math.min(11, 0.16 * storey));
+    this.isCrowded = geometry.buildings.length > 2 && place.width < ROOMY;
+    this.out = geometry.buildings.length > 2 ? 0 : OUT;
     this.column = Math.max(1.5, Math.min(6, 0.035 * place.width));
     this.hatch = makeHatch(context, colours);
   }
@@ -57,8 +76,8 @@ export class Drawing {
     context.clip();
     this.#ground(ground);
     for (const wall of this.geometry.walls) this.#wall(wall);
-    for (const side of Object.keys(this.geometry.soil)) this.#foundation(side, moved);
-    for (const side of this.geometry.sides) this.#building(side, moved, yielding);
+    this.geometry.buildings.forEach(({ soil }, at) => soil && this.#foundation(at, moved));
+    this.geometry.buildings.forEach((_, at) => this.#building(at, moved, yielding));
     this.#links(moved, slipping);
     for (const flash of flashes) this.#flash(flash, moved);
     if (numbered) this.#numbers(moved);
@@ -76,23 +95,50 @@ export class Drawing {
 
   #ground(ground) {
     const { context, place, colours, geometry } = this;
-    const { x, width } = place.box;
+    const { buildings } = geometry;
     context.fillStyle = colours.line;
-    const levels = geometry.sides.map((side) => this.#groundOf(side));
-    const middle = place.x(geometry.gap / 2);
-    levels.forEach((level, at) => {
-      const [from, to] = levels.length === 1 ? [x, x + width] : at === 0 ? [x, middle] : [middle, x + width];
-      context.fillRect(from, level, to - from, 5);
+    buildings.forEach((_, at) => {
+      const [from, to] = [this.#border(at), this.#border(at + 1)];
+      context.fillRect(from, this.#groundOf(at), to - from, 5);
     });
-    const bottom = place.box.y + place.box.height;
-    for (const side of geometry.sides)
-      this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
-    if (ground) this.#arrow(place.x(geometry.gap / 2), bottom - 22, ground);
+    buildings.forEach((_, at) => this.#name(at));
+    if (ground) this.#arrow(this.#amidGap(Math.ceil(buildings.length / 2)), place.base + 14, ground);
+  }
+
+  // Where the ground of one building ends and that of the next one begins, in pixels.
+  #border(passed) {
+    const { box } = this.place;
+    if (passed === 0) return box.x;
+    return passed === this.geometry.buildings.length ? box.x + box.width : this.#amidGap(passed);
+  }
+
+  // Between two buildings, or at the edge of the last one.
+  #amidGap(passed) {
+    const { edges } = this.geometry.buildings[passed - 1];
+    const next = this.geometry.buildings[passed]?.edges ?? edges;
+    return this.place.x((edges[0] + next[0]) / 2, passed);
+  }
+
+  // Below its building; upright where there is no room, and not of every building where there is none for that either.
+  #name(at) {
+    const { context, place, geometry } = this;
+    const { name, kind, edges } = geometry.buildings[at];
+    const x = place.x(edges[0], at) + place.width / 2;
+    const colour = { left: "left", right: "right-text" }[kind] ?? "ink";
+    if (!place.isUpright) return this.#text(name, x, place.base + 24, colour, "center");
+    const every = Math.ceil(NAME_LINE / (place.box.width / geometry.buildings.length));
+    if (at % every !== 0) return;
+    context.save();
+    context.translate(x + 4, place.base + 26);
+    context.rotate(Math.PI / 2);
+    this.#text(shortened(name), 0, 4, colour, "left", 11);
+    context.restore();
   }
 
   // What a building stands on, in pixels.
-  #groundOf(side) {
-    return this.place.y(this.geometry.levels[side][0]) + (this.geometry.soil[side] ? PIT : 0);
+  #groundOf(at) {
+    const { levels, soil } = this.geometry.buildings[at];
+    return this.place.y(levels[0]) + (soil ? PIT : 0);
   }
 
   // The acceleration of the ground, as long as its share of the peak.
@@ -114,83 +160,92 @@ export class Drawing {
     context.fill();
   }
 
-  #centre(side) {
-    const { place, geometry } = this;
-    return place.x(geometry.inner[side][0]) + (side === "left" ? -place.width / 2 : place.width / 2);
-  }
-
+  // One between two buildings is thin, so that its neighbour is seen.
   #wall(contact) {
     const { context, place, geometry, colours } = this;
-    const faces = geometry.faces(contact, geometry.atRest(), place.width / place.across);
+    const faces = geometry.faces(contact, geometry.atRest());
     const onLeft = contact.wall === "left";
-    const face = place.x(faces[onLeft ? 0 : 1]);
+    const face = place.x(faces[onLeft ? 0 : 1], contact.passed);
     const top = place.y(contact.height) - 14;
     context.fillStyle = this.hatch.quiet;
     context.strokeStyle = colours.quiet;
     context.lineWidth = 1.5;
-    const far = onLeft ? Math.max(place.box.x, face - 46) : Math.min(place.box.x + place.box.width, face + 46);
+    const isOuter = contact.passed === (onLeft ? 0 : geometry.buildings.length);
+    const thick = isOuter ? WALL : THIN_WALL;
+    const far = onLeft ? Math.max(place.box.x, face - thick) : Math.min(place.box.x + place.box.width, face + thick);
     const [from, to] = onLeft ? [far, face] : [face, far];
-    const bottom = Math.max(...geometry.sides.map((side) => this.#groundOf(side)), place.y(geometry.bottom)) + 5;
+    const bottom = Math.max(...geometry.buildings.map((_, at) => this.#groundOf(at)), place.y(geometry.bottom)) + 5;
     context.fillRect(from, top, to - from, bottom - top);
     context.strokeRect(from, top, to - from, bottom - top);
   }
 
   // Left ends of the foundation and of all slabs.
-  #edges(side, moved) {
-    const { place, geometry } = this;
-    return moved[side].map(
-      (u, floor) => place.x(geometry.inner[side][floor] + u) + (side === "left" ? -place.width : 0),
-    );
+  #edges(at, moved) {
+    const { edges } = this.geometry.buildings[at];
+    return moved.floors[at].map((u, floor) => this.place.x(edges[floor] + u, at));
   }
 
-  // A block, what it rocks on below it, and beside it what holds its sway on the ground, away from the gap.
-  #foundation(side, moved) {
+  // A block, what it rocks on below it, and what holds its sway on the ground.
+  #foundation(at, moved) {
     const { context, place, geometry, colours } = this;
-    const { sway, rocking } = geometry.soil[side];
-    const [top, ground] = [place.y(geometry.levels[side][0]), this.#groundOf(side)];
-    const [rest, x] = [geometry.atRest(), moved].map((at) => this.#edges(side, at)[0] - OUT);
-    const [wide, slope] = [place.width + 2 * OUT, this.#slope(side, 1, moved)];
-    const soil = new Devices(context, colours, Infinity);
+    const { levels, soil } = geometry.buildings[at];
+    const { sway } = soil;
+    const rocking = this.isCrowded ? soil.rocking.slice(0, 1) : soil.rocking;
+    const [top, ground] = [place.y(levels[0]), this.#groundOf(at)];
+    const [rest, x] = [geometry.atRest(), moved].map((one) => this.#edges(at, one)[0] - this.out);
+    const [wide, slope] = [place.width + 2 * this.out, this.#slope(at, 1, moved)];
+    const devices = new Devices(context, colours, Infinity);
     for (const sign of [-1, 1]) {
-      rocking.forEach((part, at) => {
-        const aside = sign * (wide / 2 - POST - at * BESIDE);
+      rocking.forEach((part, row) => {
+        const aside = sign * (wide / 2 - Math.min(POST, wide / 4) - row * BESIDE);
         const from = { x: rest + wide / 2 + aside, y: ground };
         const to = { x: x + wide / 2 + aside, y: top + THICK + slope * aside };
-        soil.upright(part, from, to, ground - top - THICK);
+        devices.upright(part, from, to, ground - top - THICK);
       });
     }
-    if (sway.length > 0) this.#sway(soil, side, sway, { top, rest, x, wide });
-    this.#tilted(side, { x, y: top + THICK / 2, wide, high: THICK, slope });
+    if (sway.length > 0) this.#sway(devices, at, sway, { top, rest, x, wide, rocks: rocking.length > 0 });
+    this.#tilted(at, { x, y: top + THICK / 2, wide, high: THICK, slope });
   }
 
-  #sway(soil, side, parts, { top, rest, x, wide }) {
+  // Beside the first and the last building of a row, away from the others; below one that has neighbours on both
+  // sides, where there is room.
+  #sway(devices, at, parts, { top, rest, x, wide, rocks }) {
+    const isLast = at > 0 && at === this.geometry.buildings.length - 1;
+    const grounded = isLast ? "right" : "left";
+    if (at > 0 && !isLast) {
+      if (this.isCrowded && rocks) return;
+      const [from, to] = [rest + wide / 4, x + (3 * wide) / 4].map((place) => ({ x: place, y: top + THICK }));
+      return devices.draw({ parts, from, to, rest: wide / 2, keys: [at], slab: 0, grounded, slips: false });
+    }
     const away = TO_GROUND + this.place.farthest;
-    const [ground, block] = side === "left" ? [rest - away, x] : [rest + wide + away, x + wide];
-    const ends = [ground, block].map((at) => ({ x: at, y: top }));
-    const [from, to] = side === "left" ? ends : ends.reverse();
-    soil.draw({ parts, from, to, rest: away, keys: [side], slab: 0, grounded: side, slips: false });
+    const [ground, block] = isLast ? [rest + wide + away, x + wide] : [rest - away, x];
+    const ends = [ground, block].map((place) => ({ x: place, y: top }));
+    const [from, to] = isLast ? ends.reverse() : ends;
+    devices.draw({ parts, from, to, rest: away, keys: [at], slab: 0, grounded, slips: false });
   }
 
   // Pixels down for each pixel to the right: slabs are at a right angle to what leans with the foundation.
-  #slope(side, storey, moved) {
+  #slope(at, storey, moved) {
     const { place, geometry } = this;
-    const high = geometry.levels[side][storey] - geometry.levels[side][storey - 1];
-    return (geometry.leanOf(side, storey, moved) * place.across) / (high * place.up);
+    const { levels } = geometry.buildings[at];
+    const high = levels[storey] - levels[storey - 1];
+    return (geometry.leanOf(at, storey, moved) * place.across) / (high * place.up);
   }
 
-  #building(side, moved, yielding) {
+  #building(at, moved, yielding) {
     const { context, place, geometry, colours } = this;
-    const edges = this.#edges(side, moved);
-    const levels = geometry.levels[side].map(place.y);
-    const inset = geometry.hit[side] ? 0 : Math.min(10, 0.07 * place.width);
+    const { kind, isHit } = geometry.buildings[at];
+    const edges = this.#edges(at, moved);
+    const levels = geometry.buildings[at].levels.map(place.y);
+    const inset = isHit ? 0 : Math.min(10, 0.07 * place.width);
     const offsets = [inset + this.column / 2, place.width - inset - this.column / 2];
     for (let storey = 1; storey < edges.length; storey++) {
-      const yields = yielding?.[side]?.[storey];
-      context.strokeStyle = colours[side];
+      const yields = yielding?.[at]?.[storey];
+      context.strokeStyle = colours[kind];
       context.lineWidth = yields ? this.column + 2 : this.column;
       context.setLineDash(yields ? [5, 3] : []);
-      const lean = geometry.leanOf(side, storey, moved) * place.across;
-      const slope = this.#slope(side, storey, moved);
+      const lean = geometry.leanOf(at, storey, moved) * place.across;
+      const slope = this.#slope(at, storey, moved);
       for (const offset of offsets) {
         const down = slope * (offset - place.width / 2);
         this.#columnLine(edges, levels, { storey, offset, lean, down });
@@ -198,8 +253,8 @@ export class Drawing {
     }
     context.setLineDash([]);
     for (let floor = 1; floor < edges.length; floor++) {
-      const slope = this.#slope(side, floor, moved);
-      this.#tilted(side, { x: edges[floor], y: levels[floor], wide: place.width, high: this.slab, slope });
+      const slope = this.#slope(at, floor, moved);
+      this.#tilted(at, { x: edges[floor], y: levels[floor], wide: place.width, high: this.slab, slope });
     }
   }
 
@@ -216,14 +271,15 @@ export class Drawing {
   }
 
   // A slab or a block about its middle.
-  #tilted(side, { x, y, wide, high, slope }) {
+  #tilted(at, { x, y, wide, high, slope }) {
     const { context, colours } = this;
+    const { kind } = this.geometry.buildings[at];
     context.save();
     context.transform(1, slope, 0, 1, 0, -slope * (x + wide / 2));
-    context.fillStyle = colours[side];
+    context.fillStyle = colours[kind];
     context.fillRect(x, y - high / 2, wide, high);
-    if (side === "right" && high >= 4) {
-      context.fillStyle = this.hatch.right;
+    if (at % 2 === 1 && high >= 4) {
+      context.fillStyle = this.hatch.second;
       context.fillRect(x, y - high / 2, wide, high);
     }
     context.restore();
@@ -235,7 +291,8 @@ export class Drawing {
     geometry.links.forEach((link, at) => {
       const rest = this.#linkAt(link, geometry.atRest());
       const [from, to] = this.#linkAt(link, moved, rest);
-      const keys = SIDES.map((side) => `${side} ${link.surfaces[side].floor ?? link.surfaces[other(side)].floor}`);
+      const floorOf = (on) => link.surfaces[SIDES[on]].floor ?? link.surfaces[SIDES[1 - on]].floor;
+      const keys = SIDES.map((side, on) => `${link.passed} ${side} ${floorOf(on)}`);
       const length = Math.hypot(rest[1].x - rest[0].x, rest[1].y - rest[0].y);
       const grounded = SIDES.find((side) => link.surfaces[side].kind === "wall");
       devices.draw({ parts: link.parts, from, to, rest: length, keys, slab, grounded, slips: slipping[at] });
@@ -246,8 +303,8 @@ export class Drawing {
   #linkAt(link, moved, rest) {
     const { place, geometry } = this;
     const inset = Math.min(INSET, 0.3 * place.width);
-    const points = geometry.ends(link, moved, place.width / place.across).map((end, at) => {
-      return end && { x: place.x(end.x) + (at === 0 ? -inset : inset), y: place.y(end.level) };
+    const points = geometry.ends(link, moved).map((end, at) => {
+      return end && { x: place.x(end.x, link.passed) + (at === 0 ? -inset : inset), y: place.y(end.level) };
     });
     return points.map((point, at) => {
       const away = (at === 0 ? -1 : 1) * (inset + TO_GROUND + place.farthest);
@@ -262,9 +319,9 @@ export class Drawing {
     if (geometry.contacts.length > MOST_NUMBERS) return;
     const placed = [];
     geometry.contacts.forEach((contact, at) => {
-      const [left, right] = geometry.faces(contact, moved, place.width / place.across);
+      const [left, right] = geometry.faces(contact, moved);
       const number = {
-        x: place.x((left + right) / 2),
+        x: place.x((left + right) / 2, contact.passed),
         y: place.y(contact.height) - this.slab / 2 - 13,
         text: String(at + 1),
       };
@@ -292,9 +349,9 @@ export class Drawing {
     const { context, place, geometry, colours } = this;
     const pair = geometry.contacts[contact - 1];
     if (!pair) return;
-    const [left, right] = geometry.faces(pair, moved, place.width / place.across);
+    const [left, right] = geometry.faces(pair, moved);
     const [x, y] = [
-      place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2),
+      place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2, pair.passed),
       place.y(pair.height),
     ];
     const radius = Math.min(7 + 24 * size, this.largestFlash) * (1 - 0.35 * age);
@@ -314,7 +371,7 @@ export class Drawing {
   }
 }
 
-// Stripes, for slabs of the right building and for walls.
+// Stripes, for slabs of every second building and for walls.
 function makeHatch(context, colours) {
   const stripes = (stroke, opacity = 1) => {
     const tile = document.createElement("canvas");
@@ -330,7 +387,7 @@ function makeHatch(context, colours) {
     pen.stroke();
     return context.createPattern(tile, "repeat");
   };
-  return { right: stripes(colours.card, 0.6), quiet: stripes(colours.quiet) };
+  return { second: stripes(colours.card, 0.6), quiet: stripes(colours.quiet) };
 }
 
-const other = (side) => SIDES.find((one) => one !== side);
+const shortened = (name) => (LETTER * name.length > LONGEST_NAME ? `${name.slice(0, LONGEST_NAME / LETTER - 1)}\u2026` : name);

@@ -2,7 +2,8 @@
 
 import { GRAVITY, digits, isRound, plural, seconds } from "./format.js";
 import { element, make } from "./make.js";
-import { SIDES } from "./motion.js";
+import { kindOf, namesOf } from "./motion.js";
+import { chartedOf } from "./pair.js";
 import { colour, lineLook } from "./palette.js";
 import { MOST_KEPT } from "./keep.js";
 import { said } from "./notice.js";
@@ -25,7 +26,7 @@ export class Ground {
     element("ground-record").addEventListener("change", () => this.#set(element("ground-record").value));
     state.on("look", () => this.show());
     state.on("records", () => this.#list());
-    state.on("colours", () => this.draw());
+    state.on(["colours", "buildings"], () => this.draw());
     new ResizeObserver(() => this.#resize()).observe(element("record-charts"));
   }
 
@@ -216,13 +217,10 @@ export class Ground {
       scales: { x: { time: false, distr: 3, range: () => [SHORTEST, LONGEST] } },
       hooks: { draw: [(plot) => this.#periods(plot)] },
     });
-    for (const side of SIDES) {
-      const period = this.state.look?.[side]?.periods?.[0];
-      if (period)
-        make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s${onSoil(this.state.look, side)}`, {
-          class: `hint of-${side}`,
-        });
-    }
+    for (const { name, kind, period, onSoil } of this.#known())
+      make(element("record-charts"), "p", `first period, ${name}: ${digits(period, 3)} s${onSoil}`, {
+        class: `hint of-${kind} ${kind.startsWith("row") ? "of-row" : ""}`,
+      });
   }
 
   #plot(title, data, line, x, options) {
@@ -239,11 +237,24 @@ export class Ground {
 
   // Where the first periods of the buildings are in the spectrum; names stand away from the other one.
   #periods(plot) {
-    const known = SIDES.map((side) => ({ side, period: this.state.look?.[side]?.periods?.[0] })).filter(
-      ({ period }) => period >= plot.scales.x.min && period <= plot.scales.x.max,
-    );
+    const { min, max } = plot.scales.x;
+    const known = this.#known().filter(({ period }) => period >= min && period <= max);
     const shortest = Math.min(...known.map(({ period }) => period));
-    for (const { side, period } of known) markPeriod(plot, side, period, known.length > 1 && period === shortest);
+    known.forEach((one, which) => markPeriod(plot, { ...one, which }, known.length > 1 && one.period === shortest));
+  }
+
+  // First periods of those buildings that the charts show, on a fixed base, and what soil makes of them.
+  #known() {
+    const { look } = this.state;
+    if (!look) return [];
+    const names = namesOf(look);
+    const charted = chartedOf(this.state, look);
+    return look.buildings.flatMap(({ name, periods }, at) => {
+      const period = periods?.[0];
+      const ratio = look.layout.buildings[at].foundation?.period_ratio;
+      const onSoil = ratio ? `, ${digits(ratio * period, 3)} s on its soil` : "";
+      return period && charted.includes(name) ? [{ name, kind: kindOf(names, name), period, onSoil }] : [];
+    });
   }
 
   #resize() {
@@ -257,20 +268,15 @@ export class Ground {
   }
 }
 
-// What a foundation makes of the first period.
-function onSoil(look, side) {
-  const ratio = look.layout[side].foundation?.period_ratio;
-  return ratio ? `, ${digits(ratio * look[side].periods[0], 3)} s on its soil` : "";
-}
-
-function markPeriod(plot, side, period, isLeftmost) {
+function markPeriod(plot, { name, kind, period, which }, isLeftmost) {
   const { ctx: context, bbox } = plot;
   const ratio = devicePixelRatio || 1;
+  const { stroke, dash } = lineLook(kind, 0, which);
   context.save();
-  const x = drawUpright(plot, period, colour(side), side === "right" ? [7, 4] : []);
-  context.fillStyle = colour(side);
+  const x = drawUpright(plot, period, stroke, dash.slice(0, 2));
+  context.fillStyle = stroke;
   context.font = `${11 * ratio}px system-ui, sans-serif`;
   context.textAlign = isLeftmost ? "right" : "left";
-  context.fillText(` ${side} T1 `, x, bbox.top + 10 * ratio);
+  context.fillText(` ${name} T1 `, x, bbox.top + 10 * ratio);
   context.restore();
 }

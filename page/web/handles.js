@@ -2,6 +2,7 @@
 // writes it there; it holds nothing itself.
 
 import { GRAVITY, digits } from "./format.js";
+import { gapChoices } from "./gaps.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 
@@ -13,7 +14,7 @@ const LEAST_RANGE = { gap: 0.2, scale: 3, pga: 10 };
 export class Handles {
   // `change` writes values into the scene by path, and says whether it could.
   constructor(state, change) {
-    Object.assign(this, { state, change, of: "all" });
+    Object.assign(this, { state, change, of: "all", choices: [] });
     element("gap").addEventListener("input", () => this.setGap(Number(element("gap").value)));
     element("gap-number").addEventListener("change", () =>
       this.#typed("gap-number", (value) => this.setGap(toMetres(value))),
@@ -24,8 +25,9 @@ export class Handles {
       this.#typed("strength-number", (value) => this.#setStrength(value)),
     );
     element("law").addEventListener("change", () =>
-      this.change({ [`${this.#contacts()}.law`]: element("law").value }, "law"),
+      this.change(Object.fromEntries(this.#chosen().laws.map((path) => [path, element("law").value])), "law"),
     );
+    element("storeys-of").addEventListener("change", () => this.show());
     for (const button of document.querySelectorAll("[data-side]"))
       button.addEventListener("click", () => this.#setStoreys(button.dataset));
     state.on("look", () => this.show());
@@ -38,17 +40,16 @@ export class Handles {
 
   // m, of the contacts that the handle is for.
   gapNow() {
-    const contacts = this.state.look?.layout.contacts ?? [];
-    return (this.of === "all" ? contacts[0] : contacts[this.of - 1])?.gap ?? NaN;
+    return this.#chosen()?.contact.gap ?? NaN;
   }
 
   setGap(gap) {
-    this.change({ [`${this.#contacts()}.gap`]: gap }, "gap");
+    const chosen = this.#chosen();
+    if (chosen) this.change(chosen.changes(gap), "gap");
   }
 
-  #contacts() {
-    if (this.state.look?.facing) return "facing";
-    return this.of === "all" ? "contact[*]" : `contact[${this.of}]`;
+  #chosen() {
+    return this.choices.find(({ value }) => value === this.of);
   }
 
   #typed(id, set) {
@@ -75,8 +76,15 @@ export class Handles {
   #setStoreys({ side, by }) {
     const shown = element(`${side}-storeys`);
     const count = Number(shown.textContent) + Number(by);
+    const path = this.#buildingAt(side).path;
     // Shown at once: the next press counts from it.
-    if (count >= 1 && this.change({ [`${side}.storeys`]: count }, "storeys")) shown.textContent = count;
+    if (count >= 1 && this.change({ [`${path}.storeys`]: count }, "storeys")) shown.textContent = count;
+  }
+
+  // That which the buttons of a side are for; those of a row are for the one that is chosen.
+  #buildingAt(side) {
+    const buildings = this.state.look?.buildings ?? [];
+    return buildings.find(({ name, path }) => (side === "row" ? name === element("storeys-of").value : path === side));
   }
 
   show() {
@@ -87,39 +95,38 @@ export class Handles {
     this.#showGap(look);
     this.#showStrength(look);
     if (this.isAhead) return;
-    for (const side of SIDES) element(`${side}-storeys`).textContent = look[side]?.floors ?? 0;
-    for (const button of document.querySelectorAll("[data-side]")) {
-      const { side, by } = button.dataset;
-      button.disabled = !look[side] || (Number(by) < 0 && look[side].floors < 2);
+    this.#showStoreys(look);
+  }
+
+  #showStoreys({ buildings }) {
+    const isRow = buildings[0].path !== "left";
+    element("row-stepper").hidden = !isRow;
+    if (isRow) listOptions(element("storeys-of"), buildings.map(({ name }) => ({ value: name, label: name })));
+    for (const side of [...SIDES, "row"]) {
+      if (side !== "row") element(`${side}-storeys`).parentElement.hidden = isRow;
+      const floors = this.#buildingAt(side)?.floors ?? 0;
+      element(`${side}-storeys`).textContent = floors;
+      for (const button of document.querySelectorAll(`[data-side=${side}]`))
+        button.disabled = floors === 0 || (Number(button.dataset.by) < 0 && floors < 2);
     }
   }
 
-  #showGap({ layout: { contacts }, facing }) {
-    const gaps = contacts.map(({ gap }) => gap);
-    const differ = gaps.some((gap) => gap !== gaps[0]);
-    const choosable = !facing && contacts.length > 1;
-    if (!choosable || !(this.of === "all" || this.of <= contacts.length)) this.of = "all";
-    if (choosable && differ && this.of === "all" && element("gap-of").options.length !== contacts.length + 1)
-      this.of = "1";
-    this.#listGaps(choosable ? contacts.length : 0);
-    const gap = this.gapNow();
+  #showGap({ layout: { contacts } }) {
+    this.choices = gapChoices(this.state.look);
+    const singles = this.choices.slice(1);
+    const differ = contacts.some(({ gap }) => gap !== contacts[0].gap);
+    const isNew = listOptions(element("gap-of"), this.choices);
+    if (!this.#chosen()) this.of = "all";
+    if (singles.length > 0 && differ && this.of === "all" && isNew) this.of = singles[0].value;
+    element("gap-of-label").hidden = singles.length === 0;
+    element("gap-of").value = this.of;
     for (const id of ["gap", "gap-number", "law"]) element(id).disabled = contacts.length === 0;
     if (contacts.length === 0) return;
+    const { gap, law } = this.#chosen().contact;
     showRange("gap", gap, LEAST_RANGE.gap, this.isAhead);
     showNumber("gap-number", toMillimetres(gap));
     element("gap").setAttribute("aria-valuetext", `${toMillimetres(gap)} mm`);
-    element("law").value = (this.of === "all" ? contacts[0] : contacts[this.of - 1]).law;
-  }
-
-  #listGaps(count) {
-    element("gap-of-label").hidden = count === 0;
-    const list = element("gap-of");
-    if (list.options.length !== count + 1) {
-      list.replaceChildren();
-      make(list, "option", "all contacts", { value: "all" });
-      for (let contact = 1; contact <= count; contact++) make(list, "option", `contact ${contact}`, { value: contact });
-    }
-    list.value = this.of;
+    element("law").value = law;
   }
 
   #showStrength({ ground }) {
@@ -135,6 +142,16 @@ export class Handles {
     showNumber("strength-number", value);
     element("strength").setAttribute("aria-valuetext", element("strength-says").textContent);
   }
+}
+
+// Those of a list, written anew only where they are others; whether they are.
+function listOptions(list, options) {
+  if ([...list.options].map(({ text }) => text).join() === options.map(({ label }) => label).join()) return false;
+  const { value } = list;
+  list.replaceChildren();
+  for (const option of options) make(list, "option", option.label, { value: option.value });
+  if (options.some((option) => option.value === value)) list.value = value;
+  return true;
 }
 
 // The range grows with what is in it, but not under a hand that moves it.

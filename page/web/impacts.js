@@ -3,9 +3,11 @@
 
 import { digits, handyUnit, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
+import { namesOf } from "./motion.js";
 
 const COLUMNS = [
   { key: "contact", title: "contact" },
+  { key: "between", title: "between" },
   { key: "start_s", title: "start", unit: "s", time: true },
   { key: "peak_force", title: "peak force", unit: "N" },
   { key: "approach_velocity", title: "approach", unit: "m/s" },
@@ -35,6 +37,10 @@ export class Impacts {
 
   draw() {
     const { run } = this.state;
+    // Of two buildings everybody knows between whom.
+    const [isRow, { contacts }] = [namesOf(run.look).length > 2, run.look.layout];
+    this.columns = COLUMNS.filter(({ key }) => isRow || key !== "between");
+    this.between = contacts.map(({ left, right }) => [left, right].map(({ side }) => side ?? "wall").join(", "));
     this.units = Object.fromEntries(
       COLUMNS.map(({ key, unit }) => [key, handyUnit(largestBy(run.impacts, key), unit)]),
     );
@@ -70,7 +76,7 @@ export class Impacts {
     const focused = head.contains(document.activeElement) ? document.activeElement.dataset.key : null;
     head.replaceChildren();
     const row = make(head, "tr");
-    for (const { key, title } of COLUMNS) {
+    for (const { key, title } of this.columns) {
       const cell = make(row, "th", "", { scope: "col" });
       const arrow = key === this.by ? (this.down ? " \u25BE" : " \u25B4") : "";
       if (arrow) cell.setAttribute("aria-sort", this.down ? "descending" : "ascending");
@@ -82,14 +88,16 @@ export class Impacts {
 
   // The largest first, but times as they pass.
   #sortBy(key) {
-    const passing = key === "contact" || COLUMNS.find((column) => column.key === key).time;
+    const passing = key === "contact" || key === "between" || COLUMNS.find((column) => column.key === key).time;
     this.down = key === this.by ? !this.down : !passing;
     this.by = key;
     this.draw();
   }
 
   #sorted() {
-    const value = (impact) => (Number.isFinite(impact[this.by]) ? impact[this.by] : Infinity);
+    // Contacts go gap by gap.
+    const by = this.by === "between" ? "contact" : this.by;
+    const value = (impact) => (Number.isFinite(impact[by]) ? impact[by] : Infinity);
     const sign = this.down ? -1 : 1;
     return [...this.state.run.impacts].sort((a, b) => sign * (value(a) - value(b)) || a.start_s - b.start_s);
   }
@@ -103,13 +111,14 @@ export class Impacts {
         "data-row": from + at,
         "aria-rowindex": from + at + 2,
       });
-      for (const { key, time } of COLUMNS) make(row, "td", this.#cell(impact, key, time));
+      for (const { key, time } of this.columns) make(row, "td", this.#cell(impact, key, time));
       if (impact === this.state.chosen) row.className = "chosen";
     });
     this.body.append(rows);
   }
 
   #cell(impact, key, time) {
+    if (key === "between") return this.between[impact.contact - 1] ?? "";
     if (key === "contact") return String(impact.contact);
     if (key === "end_s" && !Number.isFinite(impact.end_s)) return "open";
     return time ? seconds(impact[key], 4) : digits(impact[key] * this.units[key].factor);

@@ -3,7 +3,8 @@
 
 import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
-import { SIDES, rowBefore } from "./motion.js";
+import { kindOf, namesOf, rowBefore } from "./motion.js";
+import { chartedOf } from "./pair.js";
 import { colour } from "./palette.js";
 import { endOf, hardestOf } from "./strength.js";
 import { drawAxes } from "./xy.js";
@@ -15,7 +16,7 @@ export class Loops {
   constructor(state) {
     Object.assign(this, { state, figures: [] });
     this.redraw = onceAFrame(() => this.#redraw());
-    state.on(["run", "chosen"], () => this.draw());
+    state.on(["run", "chosen", "buildings"], () => this.draw());
     state.on(["time", "colours"], this.redraw);
     new ResizeObserver(this.redraw).observe(element("panel-loops"));
   }
@@ -91,27 +92,29 @@ export class Loops {
   // Of many those with the largest ductility.
   #storeys() {
     const { run } = this.state;
-    const storeys = SIDES.flatMap((side) =>
-      (run.look[side]?.yields ?? []).map((yields, at) => yields && { side, storey: at + 1 }),
-    ).filter(Boolean);
-    for (const one of storeys) one.ductility = run.columns[`${one.side}.ductility[${one.storey}]`]?.at(-1) ?? 0;
+    const charted = chartedOf(this.state, run.look);
+    const buildings = run.look.buildings.filter(({ name }) => charted.includes(name));
+    const storeys = buildings.flatMap(({ name, yields, heights }) =>
+      yields.map((can, at) => can && { building: name, height: heights?.[at], storey: at + 1 }).filter(Boolean),
+    );
+    for (const one of storeys) one.ductility = run.columns[`${one.building}.ductility[${one.storey}]`]?.at(-1) ?? 0;
     storeys.sort((a, b) => b.ductility - a.ductility);
     return storeys.slice(0, MOST_STOREYS).map((one) => this.#storey(one));
   }
 
-  #storey({ side, storey, ductility }) {
-    const { columns, time } = this.state.run;
-    const shear = columns[`${side}.storey_shear[${storey}]`];
-    const drift = driftOf(this.state.run, side, storey);
+  #storey({ building, height, storey, ductility }) {
+    const { columns, look, time } = this.state.run;
+    const shear = columns[`${building}.storey_shear[${storey}]`];
+    const drift = driftOf(columns, { building, height, storey });
     if (!shear || !drift) return null;
     return {
-      caption: `${side} storey ${storey}: ductility ${digits(ductility, 3)}`,
+      caption: `${building} storey ${storey}: ductility ${digits(ductility, 3)}`,
       x: drift,
       y: shear,
       times: time,
       titles: ["drift", "shear"],
       units: ["m", "N"],
-      ink: side,
+      ink: kindOf(namesOf(look), building),
     };
   }
 
@@ -145,11 +148,10 @@ export class Loops {
 }
 
 // What strains the columns of a storey: without the part that leans with the foundation.
-function driftOf({ columns, look }, side, storey) {
-  const above = columns[`${side}.displacement[${storey}]`];
-  const below = columns[storey > 1 ? `${side}.displacement[${storey - 1}]` : `${side}.foundation.displacement`];
-  const rotation = columns[`${side}.foundation.rotation`];
-  const height = rotation ? look[side].heights[storey - 1] : 0;
+function driftOf(columns, { building, height, storey }) {
+  const above = columns[`${building}.displacement[${storey}]`];
+  const below = columns[storey > 1 ? `${building}.displacement[${storey - 1}]` : `${building}.foundation.displacement`];
+  const rotation = columns[`${building}.foundation.rotation`];
   return above?.map((value, row) => value - (below?.[row] ?? 0) - (rotation ? height * rotation[row] : 0));
 }
 

@@ -4,12 +4,12 @@
 // state.js       what the page knows, and who is told when it changes
 // engine.js      what the engine is asked (lane.js, asking.js, worker.js: how)
 // runner.js      from text to run: checked, run, stopped, said
-// editor.js      the scene as text (history.js, highlight.js); handles.js: what a hand is quicker at; files.js,
+// editor.js      the scene as text (history.js, highlight.js); handles.js and gaps.js: what a hand is quicker at; files.js,
 //                link.js, keep.js and packed.js: where a scene comes from and stays
 // ground.js      records
 // unsaid.js      what their files do not say
 // stage.js       the buildings in motion (geometry.js, motion.js, drawing.js); player.js: the clock
-// charts.js      charts over time (series.js: of what); plots.js and xy.js: how any chart looks
+// charts.js      charts over time (series.js: of what; pair.js: of which buildings); plots.js and xy.js: how any chart looks
 // impacts.js, peaks.js, loops.js, study.js: the other results; tabs.js
 // save.js        what leaves the page
 // format.js, make.js, notice.js, palette.js, strength.js, words.js: shared by all
@@ -26,6 +26,7 @@ import { fromLink, startLinks, textOf } from "./link.js";
 import { Loops } from "./loops.js";
 import { element, make, settled } from "./make.js";
 import { startTheme } from "./palette.js";
+import { Pair } from "./pair.js";
 import { Peaks } from "./peaks.js";
 import { Player } from "./player.js";
 import { Runner } from "./runner.js";
@@ -58,6 +59,7 @@ const study = new Study(state, engine, runner, {
   setGap: (gap) => handles.setGap(gap),
   gapNow: () => handles.gapNow(),
 });
+new Pair(state);
 const charts = new Charts(state, player);
 const loops = new Loops(state);
 new Stage(state, player);

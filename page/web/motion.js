@@ -1,6 +1,18 @@
 // Where floors and foundations are at any time of a run: between two rows a cubic through displacements and velocities.
 
+// Of a gap, and of a link.
 export const SIDES = ["left", "right"];
+
+// From left to right.
+export const namesOf = ({ layout }) => layout.buildings.map(({ name }) => name);
+
+// How a building is drawn: one alone or the first of two as the left one, the other as the right one, each of a longer row
+// as one of eight in turn.
+const IN_TURN = 8;
+export function kindOf(names, name) {
+  const at = names.indexOf(name);
+  return names.length <= SIDES.length ? SIDES[at] : `row-${(at % IN_TURN) + 1}`;
+}
 
 // The row before a time, of rows that are equally far apart but for the last one.
 export function rowBefore(times, time) {
@@ -16,20 +28,22 @@ export function rowBefore(times, time) {
 export class Motion {
   constructor(run) {
     this.run = run;
-    const of = (side, name) => {
+    const of = (building, name) => {
       // Below the floors the foundation, or the ground.
-      const columns = [run.columns[`${side}.foundation.${name}`]];
-      for (let i = 1; run.columns[`${side}.${name}[${i}]`]; i++) columns.push(run.columns[`${side}.${name}[${i}]`]);
+      const columns = [run.columns[`${building}.foundation.${name}`]];
+      for (let i = 1; run.columns[`${building}.${name}[${i}]`]; i++) columns.push(run.columns[`${building}.${name}[${i}]`]);
       return columns;
     };
-    this.displacements = Object.fromEntries(SIDES.map((side) => [side, of(side, "displacement")]));
-    this.velocities = Object.fromEntries(SIDES.map((side) => [side, of(side, "velocity")]));
-    const foundation = (side, name) => run.columns[`${side}.foundation.${name}`];
-    this.rotations = SIDES.map((side) => [side, foundation(side, "rotation"), foundation(side, "rotation_rate")]);
+    this.buildings = namesOf(run.look).map((name) => ({
+      displacements: of(name, "displacement"),
+      velocities: of(name, "velocity"),
+      rotation: run.columns[`${name}.foundation.rotation`],
+      rotationRate: run.columns[`${name}.foundation.rotation_rate`],
+    }));
   }
 
-  // Displacement of each floor, m, the lowest first, before it that of the foundation, 0 for the ground; and by how much
-  // each foundation has turned, rad.
+  // Of each building the displacements of its floors, m, the lowest first, before it that of the foundation, 0 for the
+  // ground; and by how much each foundation has turned, rad.
   at(time) {
     const { time: times } = this.run;
     const row = rowBefore(times, time);
@@ -41,10 +55,12 @@ export class Motion {
       if (!velocity) return column[row] + share * (column[next] - column[row]);
       return cubic(share, column[row], column[next], step * velocity[row], step * velocity[next]);
     };
-    const place = (side) => this.displacements[side].map((column, at) => between(column, this.velocities[side][at]));
-    const moved = Object.fromEntries(SIDES.map((side) => [side, place(side)]));
-    const turned = this.rotations.map(([side, rotation, rate]) => [side, between(rotation, rate)]);
-    return { ...moved, turned: Object.fromEntries(turned) };
+    return {
+      floors: this.buildings.map(({ displacements, velocities }) =>
+        displacements.map((column, floor) => between(column, velocities[floor])),
+      ),
+      turned: this.buildings.map(({ rotation, rotationRate }) => between(rotation, rotationRate)),
+    };
   }
 
   // A column of the run at a time, by the line between two rows.

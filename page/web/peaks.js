@@ -1,9 +1,10 @@
-// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, of each
-// foundation and of each link, with the times at which they were reached; a time goes there.
+// The largest values of a run, as long as the scene keeps them: of a row each building, of two buildings each floor and
+// storey, the top first, of each foundation and of each link, with the times at which they were reached; a time goes there.
 
 import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
-import { SIDES } from "./motion.js";
+import { kindOf, namesOf } from "./motion.js";
+import { chartedOf } from "./pair.js";
 
 const QUANTITIES = [
   { part: "peak_drift", title: "drift", unit: "m" },
@@ -27,16 +28,15 @@ const OF_FOUNDATIONS = [
 export class Peaks {
   constructor(state) {
     this.state = state;
-    state.on("run", () => this.draw());
+    state.on(["run", "buildings"], () => this.draw());
   }
 
   draw() {
     const { run } = this.state;
     const panel = element("panel-peaks");
     panel.replaceChildren();
-    const sides = SIDES.filter((side) => run.columns[`${side}.peak_drift[1]`]);
-    if (sides.length === 0)
-      make(panel, "p", "The scene says outputs.peaks = false: no peaks are kept.", { class: "hint" });
+    const known = run.look.buildings.filter(({ name }) => run.columns[`${name}.peak_drift[1]`]);
+    if (known.length === 0) make(panel, "p", this.#none(), { class: "hint" });
     else
       make(
         panel,
@@ -44,18 +44,47 @@ export class Peaks {
         "Of either sign, in continuous time, and when it was reached. Displacements are relative to the ground.",
         { class: "hint" },
       );
-    for (const side of sides) this.#building(panel, side);
+    if (known.length > 2) this.#row(panel, known);
+    const charted = chartedOf(this.state, run.look);
+    for (const building of known.filter(({ name }) => charted.includes(name))) this.#building(panel, building);
     this.#foundations(panel);
     this.#links(panel);
     this.#yielding(panel);
   }
 
-  #building(panel, side) {
+  #none() {
+    if (this.state.look?.peaks) return "There are too many floors and contacts for the page to keep peaks; pounding-fmu has them.";
+    return "The scene says outputs.peaks = false: no peaks are kept.";
+  }
+
+  // The largest of each building, from left to right.
+  #row(panel, buildings) {
+    const { columns, look } = this.state.run;
+    const present = QUANTITIES.filter(({ part }) => buildings.some(({ name }) => columns[`${name}.${part}[1]`]));
+    const most = ({ name, floors }, part) => {
+      const own = Array.from({ length: floors }, (_, at) => columns[`${name}.${part}[${at + 1}]`]).filter(Boolean);
+      return own.reduce((largest, column) => (largest?.at(-1) >= column.at(-1) ? largest : column), null);
+    };
+    const table = make(panel, "table", "", { class: "numbers" });
+    make(table, "caption", "The row");
+    const head = make(make(table, "thead"), "tr");
+    make(head, "th", "building", { scope: "col" });
+    const rows = buildings.map((building) => present.map(({ part }) => most(building, part)));
+    const looks = present.map((quantity, at) => unitOf(rows.map((row) => row[at]), quantity));
+    present.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
+    const body = make(table, "tbody");
+    buildings.forEach(({ name }, place) => {
+      const row = make(body, "tr");
+      make(row, "th", name, { scope: "row", class: classOf(look, name) });
+      rows[place].forEach((column, at) => (column ? this.#cell(row, column, looks[at]) : make(row, "td")));
+    });
+  }
+
+  #building(panel, { name: side, floors }) {
     const { run } = this.state;
     const present = QUANTITIES.filter(({ part }) => run.columns[`${side}.${part}[1]`]);
-    const floors = run.look.left && side === "left" ? run.look.left.floors : run.look.right.floors;
     const table = make(panel, "table", "", { class: "numbers" });
-    make(table, "caption", `${side}, ${plural(floors, "storey", "storeys")}`, { class: `of-${side}` });
+    make(table, "caption", `${side}, ${plural(floors, "storey", "storeys")}`, { class: classOf(run.look, side) });
     const head = make(make(table, "thead"), "tr");
     make(head, "th", "floor", { scope: "col" });
     const looks = present.map((quantity) =>
@@ -75,7 +104,8 @@ export class Peaks {
   // A row for each foundation; a way in which none moves has no column.
   #foundations(panel) {
     const { columns, look } = this.state.run;
-    const sides = SIDES.filter((side) => look.layout[side].foundation);
+    const standing = look.layout.buildings.filter(({ foundation }) => foundation);
+    const sides = standing.map(({ name }) => name);
     if (sides.length === 0) return;
     const name = (part, side) => `${side}.foundation.${part}`;
     const known = OF_FOUNDATIONS.filter(({ part }) => sides.some((side) => columns[name(part, side)]));
@@ -86,10 +116,10 @@ export class Peaks {
     for (const title of ["building", "first period / on a fixed base"]) make(head, "th", title, { scope: "col" });
     known.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
     const body = make(table, "tbody");
-    for (const side of sides) {
+    for (const { name: side, foundation } of standing) {
       const row = make(body, "tr");
       make(row, "th", side, { scope: "row" });
-      make(row, "td", digits(look.layout[side].foundation.period_ratio));
+      make(row, "td", digits(foundation.period_ratio));
       known.forEach(({ part }, at) => {
         const column = columns[name(part, side)];
         if (column) this.#cell(row, column, looks[at]);
@@ -120,13 +150,8 @@ export class Peaks {
   }
 
   // What shows the largest of so many columns in handy numbers.
-  #unitOf(nameOf, count, { unit, inG, percent }) {
-    if (inG) return { name: "g", factor: 1 / GRAVITY };
-    if (percent) return { name: "%", factor: 100 };
-    let most = 0;
-    for (let number = 1; number <= count; number++)
-      most = Math.max(most, largestOf(this.state.run.columns[nameOf(number)]?.subarray(-1)));
-    return handyUnit(most, unit);
+  #unitOf(nameOf, count, quantity) {
+    return unitOf(Array.from({ length: count }, (_, at) => this.state.run.columns[nameOf(at + 1)]), quantity);
   }
 
   #cell(row, column, { factor }) {
@@ -154,9 +179,9 @@ export class Peaks {
   // Storeys that can yield, at the end of the run.
   #yielding(panel) {
     const { run } = this.state;
-    const storeys = SIDES.flatMap((side) =>
-      (run.look[side]?.yields ?? []).map((yields, at) => yields && [side, at + 1]),
-    ).filter(Boolean);
+    const storeys = run.look.buildings.flatMap(({ name, yields }) =>
+      yields.map((can, at) => can && [name, at + 1]).filter(Boolean),
+    );
     if (storeys.length === 0) return;
     const table = make(panel, "table", "", { class: "numbers" });
     make(table, "caption", "Storeys that can yield, at the end");
@@ -177,6 +202,17 @@ export class Peaks {
       cells.forEach((text) => make(row, "td", text));
     }
   }
+}
+
+const classOf = ({ layout }, name) => {
+  const kind = kindOf(namesOf({ layout }), name);
+  return kind.startsWith("row") ? `of-row of-${kind}` : `of-${kind}`;
+};
+
+function unitOf(columns, { unit, inG, percent }) {
+  if (inG) return { name: "g", factor: 1 / GRAVITY };
+  if (percent) return { name: "%", factor: 100 };
+  return handyUnit(Math.max(0, ...columns.map((column) => largestOf(column?.subarray(-1)))), unit);
 }
 
 // Peaks only grow: the first row that has the last value.

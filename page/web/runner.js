@@ -272,7 +272,7 @@ const problemsOf = (error) =>
 
 // Rows and columns that a picture needs: all outputs, of tall buildings fewer rows, of the tallest what is drawn.
 export function wishes(look) {
-  const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
+  const floors = look.buildings.reduce((sum, building) => sum + building.floors, 0);
   const contacts = look.layout.contacts.length;
   const links = look.layout.links.length;
   const columns = 11 * floors + 10 * contacts + 9 * links + 34;
@@ -288,11 +288,10 @@ export function wishes(look) {
 
 function drawn(look, contacts, links) {
   const names = look.ground ? ["ground.acceleration"] : [];
-  for (const side of ["left", "right"]) {
-    for (let floor = 1; floor <= (look[side]?.floors ?? 0); floor++) names.push(`${side}.displacement[${floor}]`);
-    const soil = look.layout[side].foundation;
-    if (soil?.sway.length) names.push(`${side}.foundation.displacement`);
-    if (soil?.rocking.length) names.push(`${side}.foundation.rotation`);
+  for (const { name, floors, foundation: soil } of look.layout.buildings) {
+    for (let floor = 1; floor <= floors; floor++) names.push(`${name}.displacement[${floor}]`);
+    if (soil?.sway.length) names.push(`${name}.foundation.displacement`);
+    if (soil?.rocking.length) names.push(`${name}.foundation.rotation`);
   }
   for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++)
     names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);

@@ -2,7 +2,7 @@
 
 import { largestOf } from "./format.js";
 import { lineLook } from "./palette.js";
-import { SIDES } from "./motion.js";
+import { kindOf, namesOf } from "./motion.js";
 
 const MOST_LINES = 6;
 
@@ -51,23 +51,32 @@ const others = (columns, label) =>
   columns.map(([name, number], at) => ({ name, label: label(number), look: () => lineLook("others", at) }));
 
 // Floors that are drawn when nobody has chosen: roofs.
-export function usualFloors(look) {
-  return SIDES.filter((side) => look[side]?.floors > 0).map((side) => `${side} ${look[side].floors}`);
+export function usualFloors(look, buildings) {
+  return look.buildings.filter(({ name }) => buildings.includes(name)).map(({ name, floors }) => `${name} ${floors}`);
 }
 
-function floorLines(run, part, chosen) {
-  return SIDES.flatMap((side) => {
-    const drawn = columnsOf(run, side, part)
-      .filter(([, floor]) => chosen.has(`${side} ${floor}`))
+function floorLines(run, part, { buildings, floors }) {
+  const names = namesOf(run.look);
+  return buildings.flatMap((building, which) => {
+    const drawn = columnsOf(run, building, part)
+      .filter(([, floor]) => floors.has(`${building} ${floor}`))
       .reverse();
-    return drawn.map(([name, floor], at) => ({ name, label: `${side} ${floor}`, look: () => lineLook(side, at) }));
+    const kind = kindOf(names, building);
+    return drawn.map(([name, floor], at) => {
+      return { name, label: `${building} ${floor}`, look: () => lineLook(kind, at, which) };
+    });
   });
 }
 
 // Of the foundations that move so.
-function foundationLines(run, part) {
-  const known = SIDES.map((side) => [`${side}.foundation.${part}`, side]).filter(([name]) => run.columns[name]);
-  return known.map(([name, side]) => ({ name, label: side, look: () => lineLook(side, 0) }));
+function foundationLines(run, part, { buildings }) {
+  const names = namesOf(run.look);
+  const known = buildings.map((building) => [`${building}.foundation.${part}`, building]);
+  return known
+    .filter(([name]) => run.columns[name])
+    .map(([name, building], which) => {
+      return { name, label: building, look: () => lineLook(kindOf(names, building), 0, which) };
+    });
 }
 
 const ENERGIES = [
@@ -90,8 +99,8 @@ const FOUNDATION_CHARTS = [
   ["moment", "Moment on the soil", "N.m"],
 ];
 
-// All charts of a run; those without lines are left out.
-export function chartsOf(run, floors) {
+// All charts of a run, of floors those that are chosen: { buildings, floors }; charts without lines are left out.
+export function chartsOf(run, chosen) {
   const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(
     ([name]) => largestOf(run.columns[name]) > 0,
   );
@@ -102,7 +111,7 @@ export function chartsOf(run, floors) {
       title: "Displacement of floors",
       unit: "m",
       floats: true,
-      lines: floorLines(run, "displacement", floors),
+      lines: floorLines(run, "displacement", chosen),
     },
     { id: "opening", title: "Gap opening", unit: "m", factor: -1, zero: "closed", lines: opening },
     {
@@ -118,7 +127,7 @@ export function chartsOf(run, floors) {
       id: `foundation-${part}`,
       title,
       unit,
-      lines: foundationLines(run, part),
+      lines: foundationLines(run, part, chosen),
     })),
     {
       id: "ground",
@@ -130,7 +139,7 @@ export function chartsOf(run, floors) {
       id: "acceleration",
       title: "Acceleration of floors",
       unit: "m/s2",
-      lines: floorLines(run, "acceleration", floors),
+      lines: floorLines(run, "acceleration", chosen),
     },
     { id: "energy", title: "Energy", unit: "J", lines: others(energies, (name) => name) },
   ];

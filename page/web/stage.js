@@ -5,7 +5,8 @@ import { Drawing, layOut } from "./drawing.js";
 import { GRAVITY, digits, largestOf, seconds } from "./format.js";
 import { Geometry } from "./geometry.js";
 import { element, onceAFrame } from "./make.js";
-import { Motion, SIDES } from "./motion.js";
+import { Motion } from "./motion.js";
+import { chartedOf } from "./pair.js";
 import { colours } from "./palette.js";
 import { endOf, mostOf, strengthOf } from "./strength.js";
 
@@ -86,11 +87,8 @@ export class Stage {
   }
 
   #yielding(motion, geometry) {
-    const of = (side) =>
-      geometry.levels[side].map(
-        (_, storey) => Math.abs(motion.value(`${side}.yielding[${storey}]`, this.state.time)) > 0.5,
-      );
-    return Object.fromEntries(SIDES.map((side) => [side, of(side)]));
+    const yields = (name, storey) => Math.abs(motion.value(`${name}.yielding[${storey}]`, this.state.time)) > 0.5;
+    return geometry.buildings.map(({ name, levels }) => levels.map((_, storey) => yields(name, storey)));
   }
 
   // Impacts are seen a little longer than they last.
@@ -116,7 +114,7 @@ export class Stage {
     const drawn = !this.shown.geometry.hasLevels
       ? "storeys drawn equally high: the scene has no heights"
       : `motion and gaps drawn ${digits(factor, 2)} times as large as heights`;
-    const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean))
+    const yields = this.state.run.look.buildings.some(({ yields }) => yields.some(Boolean))
       ? "; dashed: yields at this moment"
       : "";
     const slips = this.shown.geometry.links.some(({ parts }) => parts.includes("friction"))
@@ -131,7 +129,10 @@ export class Stage {
   #inWords() {
     const { run, time } = this.state;
     const moved = this.shown.motion.at(time);
-    const roofs = this.shown.geometry.sides.map((side) => `${side} roof ${digits(1e3 * moved[side].at(-1), 3)} mm`);
+    const { names } = this.shown.geometry;
+    const roofs = chartedOf(this.state, run.look).map(
+      (name) => `${name} roof ${digits(1e3 * moved.floors[names.indexOf(name)].at(-1), 3)} mm`,
+    );
     const touching = this.#flashes(run.impacts).length > 0 ? "; they hit each other" : "";
     const ground =
       this.groundPeak > 0
@@ -144,7 +145,7 @@ export class Stage {
 // m, the farthest that a floor goes.
 function reachOf(run) {
   if (!run) return 0;
-  const names = Object.keys(run.columns).filter((name) => /^(left|right)\.displacement\[/.test(name));
+  const names = Object.keys(run.columns).filter((name) => /^\w+\.displacement\[/.test(name));
   return names.reduce((most, name) => Math.max(most, largestOf(run.columns[name])), 0);
 }
 

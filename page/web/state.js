@@ -22,6 +22,8 @@ export class State {
   time = 0;
   stretch = [0, 1];
   chosen = null;
+  // Names of those whose floors and storeys the charts of a row show; without any those of the hardest impact.
+  chosenBuildings = [];
 
   on(events, act) {
     for (const event of [events].flat()) this.#listeners.set(event, [...(this.#listeners.get(event) ?? []), act]);

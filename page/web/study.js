@@ -3,7 +3,7 @@
 
 import { digits, handyUnit, isRound, largestOf, quantity, withUnit } from "./format.js";
 import { element, make } from "./make.js";
-import { SIDES } from "./motion.js";
+import { kindOf, namesOf } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
 import { wishes } from "./runner.js";
@@ -11,6 +11,8 @@ import { sentence } from "./words.js";
 
 const GAPS = 100;
 const CHART_HEIGHT = 118;
+// As many as have colours of their own.
+const MOST_BUILDINGS = 8;
 
 export class Study {
   // `setGap` writes a gap, m, into the scene; `gapNow` is that of its handle.
@@ -78,9 +80,10 @@ export class Study {
       );
     const named = (pattern) => Object.keys(result.columns).filter((name) => pattern.test(name));
     const force = most(named(/^contact\[\d+\]\.peak_force$/));
-    const drifts = SIDES.map((side) => ({ side, values: most(named(new RegExp(`^${side}\\.peak_drift`))) })).filter(
-      ({ side }) => named(new RegExp(`^${side}\\.peak_drift`)).length > 0,
-    );
+    const drifts = namesOf(this.state.look).flatMap((name) => {
+      const own = named(new RegExp(`^${name}\\.peak_drift\\[`));
+      return own.length > 0 ? [{ name, values: most(own) }] : [];
+    });
     this.result = {
       gaps: result.gaps,
       force,
@@ -96,6 +99,7 @@ export class Study {
   draw() {
     if (!this.result || element("panel-study").hidden) return;
     const { gaps, force, drifts, impacts } = this.result;
+    const names = drifts.map(({ name }) => name);
     for (const plot of this.plots) plot.destroy();
     element("study-charts").replaceChildren();
     const x = Array.from(gaps, (gap) => 1e3 * gap);
@@ -112,7 +116,11 @@ export class Study {
         "largest drift",
         drift,
         x,
-        drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) })),
+        mostDrifting(drifts).map(({ name, values }, which) => ({
+          label: name,
+          values: of(values, drift),
+          ...lineLook(kindOf(names, name), 0, which),
+        })),
       ),
       this.#plot("impacts", { name: "" }, x, [{ label: "count", values: impacts, ...lineLook("others", 0) }]),
     ];
@@ -203,6 +211,13 @@ export class Study {
   #say(text) {
     element("study-says").textContent = text;
   }
+}
+
+// Of a long row the buildings with the largest drifts, from left to right.
+function mostDrifting(drifts) {
+  const largest = drifts.map(({ values }) => largestOf(values)).sort((a, b) => b - a);
+  const least = largest[MOST_BUILDINGS - 1] ?? 0;
+  return drifts.filter(({ values }) => largestOf(values) >= least).slice(0, MOST_BUILDINGS);
 }
 
 const spaced = (from, to, count) => Array.from({ length: count }, (_, at) => from * (to / from) ** (at / (count - 1)));

@@ -1,7 +1,7 @@
 // What has happened in a run, and what has gone wrong, in few words.
 
 import { digits, plural, quantity, seconds } from "./format.js";
-import { SIDES } from "./motion.js";
+import { SIDES, namesOf } from "./motion.js";
 import { hardestOf } from "./strength.js";
 
 const FEW = 2;
@@ -24,11 +24,10 @@ function hardestInWords(run, hardest) {
   return `The hardest: ${strength} at ${seconds(time || start)} s, ${meeting}.`;
 }
 
-function collapses({ columns }) {
-  const fallen = SIDES.filter((side) => columns[`${side}.collapsed`]?.at(-1));
-  return fallen.map(
-    (side) => `The ${side} building has collapsed at ${seconds(columns[`${side}.collapse_time`].at(-1))} s.`,
-  );
+function collapses({ columns, look }) {
+  const fallen = namesOf(look).filter((name) => columns[`${name}.collapsed`]?.at(-1));
+  const called = (name) => (SIDES.includes(name) ? `The ${name} building` : `Building ${name}`);
+  return fallen.map((name) => `${called(name)} has collapsed at ${seconds(columns[`${name}.collapse_time`].at(-1))} s.`);
 }
 
 function coarse({ step }) {

@@ -352,20 +352,11 @@ function drawBuildings() {
   [canvas.width, canvas.height] = [width * dense, height * dense];
   const context = canvas.getContext("2d");
   context.scale(dense, dense);
-  if (!isPair) {
-    drawRow(context, width, height);
-    return;
-  }
-  // The drawing of the page calls them left and right.
-  const sides = names.map((name, at) => [name, ["left", "right"][at]]);
-  const named = (surface) => ({ ...surface, side: new Map(sides).get(surface.side) });
-  const called = (device) => ({ ...device, left: named(device.left), right: named(device.right) });
-  const [contacts, links] = [run.contacts.map(called), run.links.map(called)];
-  const layout = { ...Object.fromEntries(sides.map(([name, side]) => [side, byName.get(name)])), contacts, links };
-  const geometry = new Geometry({ layout });
+  const geometry = new Geometry({ layout: run });
   const moves = run.columns.filter((column) => column.quantity === "displacement").map((column) => column.largest);
   const colours = { ink: "#111", quiet: "#555", line: "#ddd", card: "#fff", "right-text": COLOURS.right[0] };
   [colours.left, colours.right] = [COLOURS.left[0], COLOURS.right[0]];
+  ROW_COLOURS.forEach((colour, at) => (colours[`row-${at + 1}`] = colour));
   const place = layOut(geometry, { x: 0, y: 0, width, height }, Math.max(0, ...moves), 0);
   new Drawing(context, geometry, place, colours).draw({
     moved: geometry.atRest(),

@@ -33,7 +33,6 @@ const PARTS: [(&str, &str); 7] = [
     ("/*report.css*/", include_str!("report.css")),
     ("@licence of uPlot@", include_str!("uplot/LICENSE")),
     ("/*uPlot.js*/", include_str!("uplot/uPlot.iife.min.js")),
-    ("/*report_row.js*/", include_str!("report_row.js")),
     ("/*report.js*/", include_str!("report.js")),
     ("/*report_loops.js*/", include_str!("report_loops.js")),
 ];

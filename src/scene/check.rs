@@ -234,9 +234,9 @@ impl Checker {
         let joined = |left: BuildingId| {
             scene.links.iter().any(|link| link.joins_buildings() && link.left.is_some_and(|(id, _)| id == left))
         };
-        let (mut cubes, mut floors) = (0, 0_usize);
+        let (mut cubes, mut floors) = (0, 0_u64);
         for (id, building) in scene.ids().zip(&scene.buildings) {
-            floors += building.mass.len().min(rule::MOST_FLOORS);
+            floors += building.mass.len().min(rule::MOST_FLOORS) as u64;
             if !joined(id) {
                 cubes += floors.pow(3);
                 floors = 0;

@@ -106,7 +106,7 @@ pub const MOST_FLOORS: usize = 1000;
 
 /// The same of all buildings: the sum of the cubes of the floors of each, and of those that links join together. As much
 /// as two of the tallest that are linked.
-pub const MOST_CUBES_OF_FLOORS: usize = 8_000_000_000;
+pub const MOST_CUBES_OF_FLOORS: u64 = 8_000_000_000;
 
 /// Contacts, or links, times floors of all buildings: each contact knows how every mode moves it, some hundred megabytes in all.
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;

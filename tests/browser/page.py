@@ -11,12 +11,12 @@ import sys
 import time
 
 from browser import started
-from pages import everyone, hostile, results, saved, scene, visit
+from pages import everyone, hostile, results, rows, saved, scene, visit
 
 
 def main():
     visit.make_page()
-    looks = [look for module in (scene, results, saved, everyone, hostile) for look in module.LOOKS]
+    looks = [look for module in (scene, results, rows, saved, everyone, hostile) for look in module.LOOKS]
     wanted = [look for look in looks if not sys.argv[1:] or any(name in look.__name__ for name in sys.argv[1:])]
     with started(viewport=visit.WIDE) as context:
         browser = context.browser

@@ -1,6 +1,7 @@
 //! Another law of contact: numbers that it does not have go, and those that it needs come.
 
-use super::path::{NOT_THERE, Step, in_table, shortest};
+use super::building::buildings;
+use super::path::{NOT_THERE, Step, in_table, shortest, tables};
 use pounding::contact::{LawInfo, LawKind, StiffnessUnit};
 use pounding::scene::law_key::number;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
@@ -24,14 +25,7 @@ pub fn set(document: &mut DocumentMut, contacts: Option<&Step<'_>>, name: &str) 
     let Some(which) = contacts else {
         return give(document.get_mut("facing").and_then(Item::as_table_like_mut).ok_or(NOT_THERE)?);
     };
-    let mut tables: Vec<&mut dyn TableLike> = match document.get_mut("contact") {
-        Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
-        Some(Item::Value(Value::Array(array))) => {
-            let inline = array.iter_mut().filter_map(Value::as_inline_table_mut);
-            inline.map(|table| table as &mut dyn TableLike).collect()
-        }
-        _ => Vec::new(),
-    };
+    let mut tables = tables(document.get_mut("contact"));
     match which {
         Step::Entry(entry) => give(*tables.get_mut(*entry).ok_or(NOT_THERE)?),
         _ => tables.into_iter().try_for_each(give),
@@ -89,9 +83,9 @@ fn exponent(table: &dyn TableLike, law: &LawInfo) -> f64 {
     }
 }
 
-fn stiffest_storey(document: &DocumentMut) -> f64 {
-    let of = |side: &str| document.get(side).and_then(|building| building.get("stiffness")).and_then(Item::as_array);
-    let storeys = ["left", "right"].into_iter().filter_map(of).flatten();
+fn stiffest_storey(document: &mut DocumentMut) -> f64 {
+    let all = buildings(document);
+    let storeys = all.iter().filter_map(|building| building.table.get("stiffness")?.as_array()).flatten();
     let most = storeys.filter_map(real_value).fold(0.0, f64::max);
     if most > 0.0 { most } else { STOREY }
 }

@@ -1,9 +1,11 @@
 //! Values of a scene's text, set by path; comments and layout stay.
 //!
 //! Paths are those of problems: `contact[1].gap`, entries counted from 1; `contact[*].gap` is that of every contact. Two
-//! are more than a value: `left.storeys`, whose change makes lists longer or shorter (`storeys.rs`), and `law`, with which
-//! the numbers go that the new law does not have (`law.rs`). `path.rs` finds and sets a value. One of null takes its key away.
+//! are more than a value: `left.storeys` or `building[2].storeys`, whose change makes lists longer or shorter (`storeys.rs`), and
+//! `law`, with which the numbers go that the new law does not have (`law.rs`). `path.rs` finds and sets a value, `building.rs`
+//! the buildings. A value of null takes its key away.
 
+mod building;
 mod law;
 mod path;
 mod storeys;
@@ -32,8 +34,8 @@ fn no_toml(text: &str) -> Refusal {
 }
 
 fn change(document: &mut DocumentMut, path: &str, value: &Json) -> Result<(), String> {
-    if let Some(side) = path.strip_suffix(".storeys") {
-        return storeys::set(document, side, value);
+    if let Some(building) = path.strip_suffix(".storeys") {
+        return storeys::set(document, building, value);
     }
     let steps = steps(path).ok_or("expected a path such as contact[1].gap")?;
     if let ([Step::Key("contact"), which, Step::Key("law")], Some(name)) = (&steps[..], value.as_str()) {

@@ -36,6 +36,18 @@ pub fn steps(path: &str) -> Option<Vec<Step<'_>>> {
     Some(steps)
 }
 
+/// The tables of a list, each under its heading or in braces.
+pub fn tables(list: Option<&mut Item>) -> Vec<&mut dyn TableLike> {
+    match list {
+        Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as &mut dyn TableLike).collect(),
+        Some(Item::Value(Value::Array(array))) => {
+            let inline = array.iter_mut().filter_map(Value::as_inline_table_mut);
+            inline.map(|table| table as &mut dyn TableLike).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
 /// What is said of a path that leads nowhere.
 pub const NOT_THERE: &str = "expected the path of something that the scene has";
 

@@ -1,6 +1,7 @@
 //! More or fewer storeys of a building: its lists become longer, with copies of what is uppermost, or shorter; contacts of
 //! floors that are gone go with them, and floors that now face each other get one.
 
+use super::building::{Building, SIDES, buildings, end};
 use super::path::NOT_THERE;
 use serde_json::Value as Json;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value, value};
@@ -21,24 +22,30 @@ const LISTS: [&str; 9] = [
 ];
 const DAMPING_LISTS: [&str; 2] = ["ratios", "dashpots"];
 
-/// Gives the building on a side so many storeys.
-pub fn set(document: &mut DocumentMut, side: &str, wanted: &Json) -> Result<(), String> {
+/// Gives the building at a path so many storeys.
+pub fn set(document: &mut DocumentMut, path: &str, wanted: &Json) -> Result<(), String> {
     let whole = wanted.as_f64().filter(|count| count.fract() == 0.0 && (1.0..=MOST as f64).contains(count));
     let count = whole.ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))? as usize;
-    let building = document.get_mut(side).and_then(Item::as_table_like_mut).ok_or(NOT_THERE)?;
-    let before = building.get("mass").and_then(Item::as_array).map(Array::len).ok_or("expected masses in a list")?;
+    let mut row = buildings(document);
+    let at = row.iter().position(|building| building.path == path).ok_or(NOT_THERE)?;
+    let before = floors(&row[at]).ok_or("expected masses in a list")?;
     if before == 0 {
         return Err("expected a building with a storey that can be copied".to_owned());
     }
-    has_no_matrix(building)?;
-    lists_of(building, count);
-    if let Some(Item::ArrayOfTables(contacts)) = document.get_mut("contact") {
-        contacts.retain(|contact| !is_above(contact, side, count));
-    }
-    let other = if side == "left" { "right" } else { "left" };
-    let facing = floors(document, other).min(count);
-    if let Some(Item::ArrayOfTables(contacts)) = document.get_mut("contact") {
-        add_facing(contacts, before + 1..=facing);
+    has_no_matrix(row[at].table)?;
+    lists_of(row[at].table, count);
+    let name = row[at].name.clone();
+    // Names of two neighbours of which this is one, and the floors that both have.
+    let pair = |pair: &[Building<'_>]| {
+        let floors = pair.iter().map(|building| floors(building).unwrap_or(0)).min();
+        (pair.iter().map(|building| building.name.clone()).collect(), floors.unwrap_or(0))
+    };
+    let nearby = &row[at.saturating_sub(1)..row.len().min(at + 2)];
+    let pairs: Vec<(Vec<String>, usize)> = nearby.windows(2).map(pair).collect();
+    let Some(Item::ArrayOfTables(contacts)) = document.get_mut("contact") else { return Ok(()) };
+    contacts.retain(|contact| !is_above(contact, &name, count));
+    for (names, facing) in pairs {
+        add_facing(contacts, &names, before + 1..=facing);
     }
     Ok(())
 }
@@ -84,21 +91,26 @@ fn number(table: &dyn TableLike, key: &str) -> Option<usize> {
     table.get(key).and_then(Item::as_integer).and_then(|number| usize::try_from(number).ok())
 }
 
-/// Whether a contact is with a floor or a storey that is gone.
-fn is_above(contact: &Table, side: &str, count: usize) -> bool {
-    ["floor", "storey"].iter().any(|what| number(contact, &format!("{side}_{what}")).is_some_and(|place| place > count))
+/// Whether a contact is with a floor or a storey of a building that is gone.
+fn is_above(contact: &Table, building: &str, count: usize) -> bool {
+    let is_gone =
+        |side: &str, what: &str| number(contact, &format!("{side}_{what}")).is_some_and(|place| place > count);
+    let mut sides = SIDES.into_iter().filter(|side| end(contact, side) == building);
+    sides.any(|side| ["floor", "storey"].into_iter().any(|what| is_gone(side, what)))
 }
 
-fn floors(document: &DocumentMut, side: &str) -> usize {
-    document.get(side).and_then(|building| building.get("mass")).and_then(Item::as_array).map_or(0, Array::len)
+fn floors(building: &Building<'_>) -> Option<usize> {
+    building.table.get("mass").and_then(Item::as_array).map(Array::len)
 }
 
-/// A contact like the last one for each of these floors, where every contact is between floors of the same number.
-fn add_facing(contacts: &mut ArrayOfTables, new: std::ops::RangeInclusive<usize>) {
+/// A contact like the last one between two neighbours for each of these floors, where every contact between them is between
+/// floors of the same number.
+fn add_facing(contacts: &mut ArrayOfTables, names: &[String], new: std::ops::RangeInclusive<usize>) {
+    let is_between = |contact: &&Table| SIDES.iter().zip(names).all(|(side, name)| end(*contact, side) == name);
     let level =
         |contact: &Table| number(contact, "left_floor").filter(|left| number(contact, "right_floor") == Some(*left));
-    let levels: Option<Vec<usize>> = contacts.iter().map(level).collect();
-    let (Some(levels), Some(last)) = (levels, contacts.iter().last().cloned()) else { return };
+    let levels: Option<Vec<usize>> = contacts.iter().filter(is_between).map(level).collect();
+    let (Some(levels), Some(last)) = (levels, contacts.iter().filter(is_between).last().cloned()) else { return };
     for floor in new.filter(|floor| !levels.contains(floor)) {
         let mut contact = last.clone();
         contact.decor_mut().set_prefix("\n");

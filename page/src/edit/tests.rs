@@ -125,3 +125,80 @@ fn a_building_grows_and_shrinks() {
     assert_eq!((scene.buildings[0].mass.len(), scene.contacts.len()), (3, 1));
     assert!(left.contains("\n  1000,\n  1000,\n]"), "{left}");
 }
+
+/// Three buildings of which each meets its neighbour, and the last one a wall.
+const ROW: &str = r#"name = "Row"
+[[building]]
+name = "a"
+mass = [1.0, 1.0]
+stiffness = [500.0, 500.0]
+damping = { ratio = 0.02 }
+[[building]]
+mass = [1.0]
+stiffness = [900.0]
+damping = { ratio = 0.02 }
+[[building]]
+name = "c"
+mass = [1.0, 1.0]
+stiffness = [500.0, 500.0]
+damping = { ratio = 0.02 }
+
+[[contact]]
+left = "a"
+right = "b2"
+left_floor = 1
+right_floor = 1
+gap = 0.01
+law = "stereomechanical"
+restitution = 0.5
+
+[[contact]]
+left = "b2"
+right = "c"
+left_floor = 1
+right_floor = 1
+gap = 0.02
+law = "stereomechanical"
+restitution = 0.5
+
+[[contact]]
+left = "c"
+left_floor = 2
+wall = "right"
+gap = 0.03
+law = "stereomechanical"
+restitution = 0.5
+"#;
+
+fn row_after(text: &str, path: &str, value: Value) -> (String, pounding::scene::Scene) {
+    let text = edited(text.as_bytes(), &[(path.to_owned(), value)]).unwrap();
+    let scene = pounding::scene::Scene::from_toml(&text).unwrap();
+    (text, scene)
+}
+
+#[test]
+fn a_building_of_a_row_meets_its_neighbours_on_both_sides() {
+    let (grown, scene) = row_after(ROW, "building[2].storeys", json!(2));
+    assert_eq!(scene.buildings.iter().map(|building| building.mass.len()).collect::<Vec<_>>(), [2, 2, 2]);
+    assert_eq!(scene.contacts.iter().map(|pair| pair.gap).collect::<Vec<_>>(), [0.01, 0.01, 0.02, 0.02, 0.03]);
+    assert_eq!(scene.contacts[3].meeting(&scene), "between b2 floor 2 and c floor 2");
+    assert_eq!(row_after(&grown, "building[2].storeys", json!(1)).0, ROW);
+    // The wall is before the second floor of the last one alone.
+    let (_, scene) = row_after(ROW, "building[3].storeys", json!(1));
+    assert_eq!(scene.contacts.iter().map(|pair| pair.gap).collect::<Vec<_>>(), [0.01, 0.02]);
+    let (_, scene) = row_after(ROW, "building[1].storeys", json!(1));
+    assert_eq!((scene.buildings[0].mass.len(), scene.contacts.len()), (1, 3));
+    assert!(edited(ROW.as_bytes(), &[("left.storeys".to_owned(), json!(2))]).is_err());
+    assert!(edited(ROW.as_bytes(), &[("building[4].storeys".to_owned(), json!(2))]).is_err());
+}
+
+#[test]
+fn values_of_a_row_change_by_path() {
+    let (_, scene) = row_after(ROW, "contact[*].gap", json!(0.5));
+    assert!(scene.contacts.iter().all(|pair| pair.gap == 0.5));
+    let (_, scene) = row_after(ROW, "building[2].mass[1]", json!(7));
+    assert_eq!(scene.buildings[1].mass, [7.0]);
+    // 300 times the stiffest storey, which the second building has.
+    let (soft, _) = row_after(ROW, "contact[2].law", json!("linear"));
+    assert!(soft.contains("law = \"linear\"\nstiffness = 2.7e5\n"), "{soft}");
+}
