@@ -28,7 +28,7 @@ const DIGITS: usize = 6;
 
 const PAGE: &str = include_str!("report.html");
 /// What the page is put together from: marks in it, and what takes their place.
-const PARTS: [(&str, &str); 7] = [
+const PARTS: [(&str, &str); 6] = [
     ("/*uPlot.css*/", include_str!("uplot/uPlot.min.css")),
     ("/*report.css*/", include_str!("report.css")),
     ("@licence of uPlot@", include_str!("uplot/LICENSE")),

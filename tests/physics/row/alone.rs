@@ -36,7 +36,8 @@ fn apart(buildings: &[String], contacts: &str) -> [f64; 2] {
         let count = shown(&row, BuildingId::new(place)).len();
         let (mut off, mut largest, mut of_peak) = (vec![0.0_f64; count], vec![0.0_f64; count], vec![false; count]);
         for k in 1..=50 {
-            (row.to(0.153 * f64::from(k)), alone.to(0.153 * f64::from(k)));
+            row.to(0.153 * f64::from(k));
+            alone.to(0.153 * f64::from(k));
             let both = shown(&row, BuildingId::new(place)).into_iter().zip(shown(&alone, BuildingId::LEFT));
             for (i, ((one, is_peak), (other, _))) in both.enumerate() {
                 of_peak[i] = is_peak;

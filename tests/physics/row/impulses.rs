@@ -72,7 +72,8 @@ fn a_symmetric_squeeze_is_a_wall() {
         let mut alone = Run::new(&masses(&[outer(0.5)], &[], "", &wall), None);
         for k in 1..=40 {
             let time = 0.1 * f64::from(k);
-            (run.to(time), alone.to(time));
+            run.to(time);
+            alone.to(time);
             let [left, middle, right] = [0, 1, 2].map(|place| run.displacement(BuildingId::new(place), 0));
             let expected = alone.displacement(BuildingId::LEFT, 0);
             let off = [left - expected, right + expected, middle];

@@ -46,7 +46,8 @@ fn linked_buildings_are_one_beside_a_third() {
         let same = [((0, 0), (0, 0)), ((0, 1), (0, 1)), ((1, 0), (0, 2)), ((1, 2), (0, 4)), ((2, 1), (1, 1))];
         let (mut off, mut largest) = (0.0_f64, 0.0_f64);
         for k in 1..=60 {
-            (row.to(0.13 * f64::from(k)), two.to(0.13 * f64::from(k)));
+            row.to(0.13 * f64::from(k));
+            two.to(0.13 * f64::from(k));
             for ((in_row, floor), (in_two, as_floor)) in same {
                 let u = row.displacement(BuildingId::new(in_row), floor);
                 let v = two.displacement(BuildingId::new(in_two), as_floor);

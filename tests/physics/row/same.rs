@@ -55,7 +55,8 @@ fn left_and_right_are_a_row_of_two() {
         let record = shaking(1.0);
         let [mut one, mut other] = [&two, &row].map(|scene| Run::new(scene, Some(&record)));
         for k in 1..=40 {
-            (one.to(0.2 * f64::from(k)), other.to(0.2 * f64::from(k)));
+            one.to(0.2 * f64::from(k));
+            other.to(0.2 * f64::from(k));
             assert_eq!(one.bits(), other.bits(), "{law}");
             if k == 20 {
                 let saved = one.save();
@@ -83,7 +84,8 @@ fn a_mirror() {
         let mut other = Run::new(&row(&from_right, &turned(&gaps)), Some(&shaking(-1.0)));
         let (mut off, mut largest) = (0.0_f64, 0.0_f64);
         for k in 1..=60 {
-            (one.to(0.13 * f64::from(k)), other.to(0.13 * f64::from(k)));
+            one.to(0.13 * f64::from(k));
+            other.to(0.13 * f64::from(k));
             for place in 0..4 {
                 let [id, mirrored] = [BuildingId::new(place), BuildingId::new(3 - place)];
                 for floor in 0..one.model.floors(id) {
