@@ -37,7 +37,11 @@ impl Serialize for FirstFloors {
 
 impl<'de> Deserialize<'de> for FirstFloors {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<FirstFloors, D::Error> {
-        deserializer.deserialize_tuple(2, Reader)
+        // Texts say themselves which of both they have.
+        match deserializer.is_human_readable() {
+            true => deserializer.deserialize_any(Reader),
+            false => deserializer.deserialize_tuple(2, Reader),
+        }
     }
 }
 
@@ -48,6 +52,11 @@ impl<'de> Visitor<'de> for Reader {
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("the floors of the left building, or 0 and a list")
+    }
+
+    fn visit_u64<E: Error>(self, second: u64) -> Result<FirstFloors, E> {
+        let second = usize::try_from(second).map_err(|_| E::custom("too many floors"))?;
+        Ok(FirstFloors(vec![0, second]))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<FirstFloors, A::Error> {
@@ -74,7 +83,9 @@ mod tests {
         for floors in [&[3, 5][..], &[3], &[3, 0], &[2, 4, 6], &[1, 1, 1, 200]] {
             let first = FirstFloors::of(floors);
             let bytes = postcard::to_allocvec(&(&first, 7_u8)).unwrap();
-            assert_eq!(postcard::from_bytes::<(FirstFloors, u8)>(&bytes).unwrap(), (first, 7));
+            assert_eq!(postcard::from_bytes::<(FirstFloors, u8)>(&bytes).unwrap(), (first.clone(), 7));
+            let text = serde_json::to_value(&first).unwrap();
+            assert_eq!(serde_json::from_value::<FirstFloors>(text).unwrap(), first);
         }
     }
 

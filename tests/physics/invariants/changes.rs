@@ -1,7 +1,6 @@
 //! What must not matter of a scene: each change makes of a case another one that tells the same motion.
 
 use super::case::{Case, Units};
-use crate::common::other;
 use crate::common::problems::laws::contact;
 use pounding::engine::{BuildingId, FoundationOutput as F, Input, LinkOutput as L, Output, PeakOf, YieldingOf as Y};
 use pounding::record::STANDARD_GRAVITY;
@@ -16,37 +15,40 @@ const LATER: f64 = 1_048_576.0;
 pub fn mirrored(case: &Case) -> Case {
     let mut case = turned_round(case);
     let scene = &mut case.scene;
+    let names: Vec<String> = scene.buildings.iter().map(|building| building.name.clone()).collect();
+    let last = names.len() - 1;
+    let opposite = move |id: BuildingId| BuildingId::new(last - id.index());
     scene.buildings.reverse();
-    scene.buildings.iter_mut().zip(["left", "right"]).for_each(|(building, name)| building.name = name.into());
+    scene.buildings.iter_mut().zip(names).for_each(|(building, name)| building.name = name);
     for pair in &mut scene.contacts {
-        (pair.left, pair.right) = (mirrored_face(pair.right), mirrored_face(pair.left));
+        (pair.left, pair.right) = (mirrored_face(pair.right, opposite), mirrored_face(pair.left, opposite));
     }
-    let mirrored = |end: Option<(BuildingId, Place)>| end.map(|(id, place)| (other(id), place));
+    let mirrored = |end: Option<(BuildingId, Place)>| end.map(|(id, place)| (opposite(id), place));
     scene.links.iter_mut().for_each(|link| (link.left, link.right) = (mirrored(link.right), mirrored(link.left)));
     for shown in &mut case.shown {
         // What the ends of a link do to each other is the same from both sides, so it is turned back.
         shown.sign *= if matches!(shown.of, Output::Link(..)) { sign(shown.of) } else { 1.0 };
-        shown.of = on_the_other_side(shown.of);
+        shown.of = on_the_other_side(shown.of, opposite);
     }
     for driven in &mut case.driven {
         if let Input::Force(side, _) | Input::Correction(side, _) = &mut driven.input {
-            *side = other(*side);
+            *side = opposite(*side);
         }
     }
     case
 }
 
-fn mirrored_face(face: Face) -> Face {
+fn mirrored_face(face: Face, opposite: impl Fn(BuildingId) -> BuildingId) -> Face {
     match face {
-        Face::Floor(side, floor) => Face::Floor(other(side), floor),
+        Face::Floor(side, floor) => Face::Floor(opposite(side), floor),
         Face::Columns { building: side, storey, position, shape } => {
-            Face::Columns { building: other(side), storey, position, shape }
+            Face::Columns { building: opposite(side), storey, position, shape }
         }
         Face::Wall => Face::Wall,
     }
 }
 
-fn on_the_other_side(mut of: Output) -> Output {
+fn on_the_other_side(mut of: Output, opposite: impl Fn(BuildingId) -> BuildingId) -> Output {
     use Output::{Acceleration, BaseShear, CollapseTime, Collapsed, Displacement, Foundation, Velocity};
     use Output::{OfStorey, OfYielding, Peak, Yielding};
     let side: Option<&mut BuildingId> = match &mut of {
@@ -61,7 +63,7 @@ fn on_the_other_side(mut of: Output) -> Output {
         _ => panic!("on which side is {of:?}?"),
     };
     if let Some(side) = side {
-        *side = other(*side);
+        *side = opposite(*side);
     }
     of
 }
@@ -266,5 +268,5 @@ pub fn scales_exactly(scene: &Scene) -> bool {
         let rocks = building.foundation.as_ref().is_some_and(|foundation| foundation.rocking.is_some());
         rocks && !matches!(building.damping, Damping::Dashpots(_) | Damping::Matrix(_))
     };
-    scene.contacts.iter().all(has_root) && !mixes(&scene.buildings[0]) && !mixes(&scene.buildings[1])
+    scene.contacts.iter().all(has_root) && !scene.buildings.iter().any(mixes)
 }
