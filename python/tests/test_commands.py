@@ -15,7 +15,7 @@ import pytest
 from pounding_fmu.__main__ import COMMANDS
 from test_command import run, well
 
-SCENES = ["feup", "isolated", "leaning", "neighbours", "offices", "on_soil", "two_blocks", "yielding"]
+SCENES = ["block", "bridge", "clinic", "feup", "isolated", "leaning", "neighbours", "offices", "on_soil", "two_blocks", "yielding"]
 
 
 def test_the_help_names_every_command_with_an_example():
