@@ -66,16 +66,16 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case(laws.kelvin_voigt(), RAYLEIGH), 0x9ce9_a89d_7e30_e295),
         (case(laws.kelvin_voigt_no_tension(), RATIO), 0x87e0_98dc_dd7d_b8d7),
         (case(laws.hertz(), RATIO), 0x0113_ac03_056d_6044),
-        (case(laws.hertz_of_another_exponent(), RATIO), 0x860a_ba07_0113_ecb7),
+        (case(laws.hertz_of_another_exponent(), RATIO), 0xf632_1eab_fab1_f9d4),
         (case(laws.jankowski(), RATIO), 0x0257_8558_8d69_acc5),
         (case(damped(), MATRIX), 0x8b20_fee2_0ea2_6437),
-        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0xaa41_825b_64ae_a72d),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x3752_99ed_31a5_a306),
+        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x516f_f9b6_07b5_8b37),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x7040_1127_5bb6_e137),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x46f4_f674_4906_f7fe),
-        (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0xb2f2_e437_e48c_ce7e),
-        (Case { yields: true, ..case(damped(), MATRIX) }, 0x6b6f_d0c7_7b66_67af),
-        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x46c0_e0d5_2b74_2ca3),
-        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x2409_6e0f_e680_537e),
+        (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0xc24d_dea8_ef7a_c098),
+        (Case { yields: true, ..case(damped(), MATRIX) }, 0xd370_91b8_035c_0df8),
+        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0xa147_e9e5_d409_ee1b),
+        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x6173_b651_24a3_9ca5),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

@@ -7,7 +7,7 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::Quantity;
+use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, FloorState, OpenQuantity, PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
@@ -15,7 +15,6 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::numerics::roots::highest_turn;
 use crate::structure::{BuildingId, LANES, Motion};
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
@@ -229,7 +228,7 @@ impl PeakFinder<'_> {
         PeakRoom { floors, open, .. }: &mut PeakRoom,
     ) {
         let lanes = self.system.structure.floors.lanes_of(id);
-        let FloorRoom { end, pushes: [_, pushed], upper, .. } = &*floors;
+        let FloorRoom { start, end, pushes, upper, .. } = &*floors;
         let kinds = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
         for (kind, (of, upper)) in kinds.into_iter().zip(upper).enumerate() {
             let first = self.watched.rows.place(of(id, 0));
@@ -239,9 +238,11 @@ impl PeakFinder<'_> {
                     continue;
                 }
                 let lane = lanes.start + floor;
-                let at_end = [end.u[lane], end.drift[lane], end.resisted[lane] + pushed[lane]][kind];
-                // The peaks have been raised to both ends.
-                open.push(OpenQuantity { of: of(id, floor), place: first + floor, at_end, upper });
+                let of_motion = [start, end].map(|at| [at.u[lane], at.drift[lane], at.resisted[lane]][kind]);
+                let of_forces = pushes.each_ref().map(|pushed| if kind == 2 { pushed[lane] } else { 0.0 });
+                let ends = [of_motion[0] + of_forces[0], of_motion[1] + of_forces[1]];
+                // The peaks have been raised to the ends.
+                open.push(OpenQuantity { of: of(id, floor), place: first + floor, ends, upper });
             }
         }
         let (ends, upper) = self.bound_shear(id, h, floors);
@@ -260,7 +261,7 @@ impl PeakFinder<'_> {
         open: &mut Vec<OpenQuantity>,
     ) {
         let place = self.watched.rows.place(of);
-        let quantity = OpenQuantity { of, place, at_end: ends[1], upper };
+        let quantity = OpenQuantity { of, place, ends, upper };
         if quantity.may_exceed(peaks) {
             ends.into_iter().for_each(|end| peaks.raise(place, end));
             open.extend(quantity.may_exceed(peaks).then_some(quantity));
@@ -280,12 +281,12 @@ impl PeakFinder<'_> {
         work.peaks.open = open;
     }
 
-    /// The largest magnitude at which a quantity turns within a part of a step, or its `known` peak if that is larger. Of a step
-    /// that is no power series the whole is searched, so that a turning point has the same bits whatever part is asked for.
+    /// The largest magnitude of a quantity within a part of a step if it exceeds its `known` peak, or a number up to that peak.
+    /// Turning points are searched for in the whole step, so that each has the same bits whatever part is asked for.
     #[inline(never)]
     fn highest_in_contact(
         &self,
-        &OpenQuantity { of, place, at_end, .. }: &OpenQuantity,
+        &OpenQuantity { of, place, ends: [_, at_end], .. }: &OpenQuantity,
         known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
@@ -305,15 +306,13 @@ impl PeakFinder<'_> {
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
                 let largest = larger(known, at_end.abs());
-                let found = (off.abs() <= TRUSTED * largest).then(|| {
-                    highest_turn(&terms[..=order], end, known, |x, value| match of {
-                        PeakOf::Acceleration(id, floor) if off.abs() > EXACT * largest => {
-                            self.acceleration_within((id, floor), x, part, work)
-                        }
-                        _ => value,
-                    })
-                });
-                found.flatten().map_or(known, |(_, peak)| peak)
+                match of {
+                    _ if off.abs() > TRUSTED * largest => known,
+                    PeakOf::Acceleration(..) if off.abs() > EXACT * largest => {
+                        self.highest_acceleration(of, (&terms, end, order), known, part, work)
+                    }
+                    _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
+                }
             }
             _ => self.highest_by_readings(&quantity, known, part, work),
         };

@@ -3,7 +3,9 @@
 use crate::engine::base::Coordinates;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
-use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS, larger};
+use crate::numerics::powers::{Evaluation, Powers};
+use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::{LANES, LinearGround, MotionSeries, dot};
 use std::ops::Range;
@@ -158,4 +160,33 @@ impl PeakFinder<'_> {
             PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_) => None,
         }
     }
+}
+
+/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is scratch.
+pub fn highest(terms: &Coefficients, end: (f64, usize), known: f64, powers: &mut Powers) -> f64 {
+    highest_by(terms, end, known, powers, |_, value| value)
+}
+
+/// The same of a quantity that the polynomial is not quite: `value` gives its magnitude where that of the polynomial is
+/// largest, from the x and the magnitude there.
+pub fn highest_by(
+    terms: &Coefficients,
+    (x, order): (f64, usize),
+    known: f64,
+    powers: &mut Powers,
+    mut value_at: impl FnMut(f64, f64) -> f64,
+) -> f64 {
+    powers.set(x, order);
+    let Evaluation { value, slope, fourth } = powers.read(terms);
+    let mut peak = known;
+    for sign in [1.0, -1.0] {
+        let copy = |out: &mut Coefficients| {
+            out.iter_mut().zip(terms).for_each(|(out, term)| *out = sign * term);
+            order + 1
+        };
+        let end = Evaluation { value: sign * value, slope: sign * slope, fourth };
+        let top = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy);
+        peak = top.map_or(peak, |(at, value)| larger(peak, value_at(at, value)));
+    }
+    peak
 }

@@ -4,14 +4,14 @@
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::Quantity;
+use crate::engine::peaks::quantity::{Quantity, highest_by};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::step::Step;
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::{LinearGround, Motion, MotionMut, Storey};
+use crate::structure::{LinearGround, Motion, MotionMut};
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -61,15 +61,31 @@ impl PeakFinder<'_> {
         })
     }
 
-    /// The absolute acceleration of a floor, m/s2, at an x of a step that is a power series, from the motion and the
-    /// contact forces there: in the series itself it has lost as many digits as its last terms have of the motion.
-    pub(super) fn acceleration_within(
+    /// The largest magnitude of an acceleration within a part of a step that is a power series, from its terms up to an x and
+    /// to an order, or `known` if that is larger. The values at both ends are known without the series, which only tells the
+    /// time of the peak.
+    pub(in crate::engine) fn highest_acceleration(
         &self,
-        (id, floor): Storey,
-        x: f64,
+        of: PeakOf,
+        (terms, end, order): (&Coefficients, f64, usize),
+        known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
+        let mut powers = std::mem::take(&mut work.buffers.powers);
+        let within = |at: f64, _| match at > 0.0 && at < end {
+            true => self.acceleration_within(of, at, part, work).abs(),
+            false => known,
+        };
+        let peak = highest_by(terms, (end, order), known, &mut powers, within);
+        work.buffers.powers = powers;
+        peak
+    }
+
+    /// The absolute acceleration of a floor, m/s2, at an x of a step that is a power series, from the motion and the
+    /// contact forces there: in the series itself it has lost as many digits as its last terms have of the motion.
+    fn acceleration_within(&self, of: PeakOf, x: f64, part: &ContactStep, work: &mut PeakWork) -> f64 {
+        let PeakOf::Acceleration(id, floor) = of else { return 0.0 };
         let ContactStep { base, step, inputs, .. } = *part;
         let time = step.taylor.series.time(roots::roughly(x));
         let PeakRoom { within: floors, floors: FloorRoom { modal, .. }, pieces: [q, v, ..], .. } = &mut *work.peaks;

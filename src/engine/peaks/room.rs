@@ -85,8 +85,8 @@ pub struct OpenQuantity {
     pub of: PeakOf,
     /// Its index among the quantities of all blocks.
     pub place: usize,
-    /// Its value at the end of the step.
-    pub at_end: f64,
+    /// Its values at both ends of the step.
+    pub ends: [f64; 2],
     /// An upper bound on its magnitude.
     pub upper: f64,
 }

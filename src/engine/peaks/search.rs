@@ -5,12 +5,11 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::Quantity;
+use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, Latest, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BodyRows, RowBlock, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::numerics::roots::highest_turn;
 use crate::structure::{EXACT, Interval, LANES, Lane, LinearLoad, Motion, MotionMut, Scratch, Structure, flight_order};
 
 /// Least order of the series over a leaf. An acceleration loses three powers of it, and where a record jumps within a short time
@@ -291,8 +290,7 @@ impl PeakFinder<'_> {
             let added = [flight.rest[suspect.place] + (direct + rate * from), rate];
             let quantity = Quantity { of, rows: &rows, lanes: None, span, added, ground, oscillates };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
-            let found = highest_turn(&terms[..=order], end, suspect.peak, |_, value| value);
-            suspect.peak = found.map_or(suspect.peak, |(_, peak)| peak);
+            suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }
         work.peaks.rows = rows;
     }

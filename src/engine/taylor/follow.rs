@@ -5,7 +5,7 @@ use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::follow::{Course, Nodes, Reached};
 use crate::engine::system::System;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::polynomial::{Coefficients, larger};
+use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::quadrature::TWELVE_POINTS;
 use crate::numerics::roots;
@@ -142,12 +142,14 @@ impl Contact {
     pub fn follow_reaction(&mut self, terms: &Coefficients, order: usize, scale: f64, start: f64, powers: &Powers) {
         let impulse = scale * powers.integral(terms);
         let force = powers.read(terms);
-        self.raise_peak(terms[0], start);
-        let known = larger(self.episode.peak_force, force.value);
-        let found = roots::highest_turn(&terms[..=order], powers.x, known, |_, value| value);
+        let copy = |out: &mut Coefficients| {
+            *out = *terms;
+            order + 1
+        };
+        let known = self.episode.peak_force;
+        let found = roots::maximum_above((terms[0], terms[1]), powers.x, &force, known, copy);
         let strongest = found.map(|(at, peak)| (peak, start + at * scale));
         self.book(Passage { impulse, strongest, ..Passage::default() });
-        self.raise_peak(force.value, start + powers.x * scale);
         self.reaction = force.value;
     }
 }

@@ -2,7 +2,6 @@
 //! interpolation) and a bound on its fourth derivative.
 
 use super::turning_point::Knot;
-use crate::numerics::polynomial::larger;
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 pub(super) const NARROWEST: f64 = 1e-9;
@@ -15,13 +14,6 @@ pub(super) struct End {
     pub slope: f64,
     /// Bound on the fourth derivative over 0..=x, so that each piece has its own.
     pub fourth: f64,
-}
-
-impl From<Knot> for End {
-    /// No bound is known yet.
-    fn from(Knot { x, value, slope }: Knot) -> End {
-        End { x, value, slope, fourth: f64::INFINITY }
-    }
 }
 
 impl From<End> for Knot {
@@ -47,22 +39,13 @@ impl End {
         (a.slope.min(middle).min(self.slope) - error, a.slope.max(middle).max(self.slope) + error)
     }
 
-    /// Bound on the magnitude of the function over the piece from `a` to here.
-    pub(super) fn size_from(self, a: End) -> f64 {
-        let w = self.x - a.x;
-        let between = larger((a.value + w / 3.0 * a.slope).abs(), (self.value - w / 3.0 * self.slope).abs());
-        larger(larger(a.value.abs(), self.value.abs()), between) + deviation(w, self.fourth)
-    }
-
-    /// Whether the curvature keeps its sign over the piece, if a `share` of the bound on the fourth derivative counts (the
-    /// interpolant's is off by at most w^2/12 max|f''''|).
-    pub(super) fn bends_one_way_from(self, a: End, share: f64) -> bool {
+    /// Whether the curvature is negative over the piece (the interpolant's is off by at most w^2/12 max|f''''|).
+    pub(super) fn is_concave_from(self, a: End) -> bool {
         let w = self.x - a.x;
         let secant = (self.value - a.value) / w;
         let at_a = (6.0 * secant - 4.0 * a.slope - 2.0 * self.slope) / w;
         let at_b = (-6.0 * secant + 2.0 * a.slope + 4.0 * self.slope) / w;
-        let error = w * w / 12.0 * (share * self.fourth);
-        at_a.max(at_b) < -error || at_a.min(at_b) > error
+        at_a.max(at_b) < -w * w / 12.0 * self.fourth
     }
 }
 

@@ -1,4 +1,4 @@
-//! Certified roots and maxima of the polynomials that describe a step, and maxima of what can only be read.
+//! Certified roots and maxima of the polynomials that describe a step.
 //!
 //! On a piece of width w the cubic Hermite interpolant of a function from its end values and slopes is off by at most
 //! w^4/384 max|f''''|, and a cubic in Bernstein form lies between its four control points. A piece on which the
@@ -16,6 +16,6 @@ mod turning_point;
 
 pub(crate) use crossing::first_upcrossing;
 pub(crate) use hermite::{deviation, highest_of_cubic, may_turn_above, upper_bound};
-pub(crate) use maximum::{highest_turn, roughly};
+pub(crate) use maximum::{maximum_above, roughly};
 pub(crate) use readings::highest_by_readings;
 pub(crate) use turning_point::{Knot, turning_point};

@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use super::terms::Terms;
-use super::{Knot, first_upcrossing, highest_by_readings, highest_turn, turning_point};
-use crate::numerics::polynomial::larger;
+use super::{Knot, first_upcrossing, highest_by_readings, maximum_above, turning_point};
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
+use crate::numerics::powers::Powers;
 
 /// Coefficients of factor * product of (x - root).
 fn polynomial(factor: f64, roots: &[f64]) -> Vec<f64> {
@@ -25,11 +26,15 @@ fn highest(coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
 }
 
 fn highest_up_to(end: f64, coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
-    // Ends have been read before.
-    let ends = [0.0, end].map(|x| (x, Terms::of(coefficients).value(x).abs()));
-    let best = ends.into_iter().fold((f64::NAN, known), |best, end| if end.1 > best.1 { end } else { best });
-    let found = highest_turn(coefficients, end, best.1, |_, value| value);
-    found.or_else(|| best.0.is_finite().then_some(best))
+    let mut room = [0.0; MAX_TERMS];
+    room[..coefficients.len()].copy_from_slice(coefficients);
+    let mut powers = Powers::default();
+    powers.set(end, coefficients.len() - 1);
+    let terms = |out: &mut Coefficients| {
+        *out = room;
+        coefficients.len()
+    };
+    maximum_above((room[0], room[1]), end, &powers.read(&room), known, terms)
 }
 
 fn rise(factor: f64, roots: &[f64]) -> Option<f64> {
@@ -209,15 +214,13 @@ fn the_largest_magnitude_is_found_by_readings() {
             let ((sin, cos), (quick_sin, quick_cos)) = ((slow * x + phase).sin_cos(), (quick * x - phase).sin_cos());
             Knot { x, value: sin + share * quick_sin, slope: slow * cos + share * quick * quick_cos }
         };
-        // Ends have been read before.
-        let known = larger(curve(0.0).value.abs(), curve(1.0).value.abs());
-        let found = highest_by_readings((known, 1.0), [0.0, 1.0], |x| {
+        let found = highest_by_readings((0.0, 1.0), [0.0, 1.0], |x| {
             readings += 1;
             curve(x)
         });
         let dense = (0..=5000).map(|i| curve(f64::from(i) / 5000.0).value.abs()).fold(0.0, f64::max);
         assert!((dense - 1e-15..dense + 2e-6).contains(&found), "case {k}: {found} instead of {dense}");
-        let again = highest_by_readings((larger(known, 0.9 * found), 1.0), [0.0, 1.0], curve);
+        let again = highest_by_readings((0.9 * found, 1.0), [0.0, 1.0], curve);
         assert_eq!(again.to_bits(), found.to_bits(), "case {k}: {again} after {} was known", 0.9 * found);
     }
     assert!(readings < 2000 * 10, "{readings} readings");

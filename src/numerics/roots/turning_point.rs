@@ -1,4 +1,4 @@
-//! Where a smooth curve turns: what every search for a largest value ends with.
+//! Where a smooth curve turns from rising to falling: what every search for a largest value ends with.
 
 /// A curve at one place.
 #[derive(Clone, Copy, Debug)]
@@ -35,19 +35,18 @@ impl Knot {
     }
 }
 
-/// The x between two knots, of slopes with different signs, at which a curve turns: first where the cubic through both does, then
-/// by inverse quadratic interpolation of the three latest slopes \[Brent1973, chapter 4\]. Values tell no more there, where a curve is flat. Kept inside a shrinking bracket, which is halved where the interpolation leads out of it.
+/// The x between two knots at which a curve turns that rises at the first and falls at the second: first where the cubic through
+/// both does, then by inverse quadratic interpolation of the three latest slopes \[Brent1973, chapter 4\]. Values tell no more
+/// there, where a curve is flat. Kept inside a shrinking bracket, which is halved where the interpolation leads out of it.
 #[inline(always)]
 pub(crate) fn turning_point([from, to]: [Knot; 2], mut read: impl FnMut(f64) -> Knot) -> f64 {
     let (mut low, mut high) = (from.x, to.x);
     let inside = |x: f64, low: f64, high: f64| if x >= low && x <= high { x } else { 0.5 * (low + high) };
-    // As if it rose at first.
-    let sign = 1.0_f64.copysign(from.slope);
-    let mut x = inside(from.times(sign).summit(to.times(sign)).0, low, high);
+    let mut x = inside(from.summit(to).0, low, high);
     let (mut last, mut before) = if x - from.x < to.x - x { (from, to) } else { (to, from) };
     for _ in 0..MOST_READINGS {
         let here = read(x);
-        if sign * here.slope > 0.0 {
+        if here.slope > 0.0 {
             low = x;
         } else {
             high = x;
