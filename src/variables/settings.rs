@@ -5,7 +5,9 @@ use super::slot::{Calculated, Parameter, Slot};
 use super::table::{Row, SharedRule};
 use super::values::Value;
 use crate::record::{KnownRecords, Record};
-use crate::scene::{Problem, Scaling, Scene, SceneError, Units, read_record_file, record_problems, record_source};
+use crate::scene::{
+    Building, Problem, Scaling, Scene, SceneError, Units, read_record_file, record_problems, record_source,
+};
 use crate::structure::period_ratio;
 use crate::warnings::{self, Warning};
 use std::collections::BTreeSet;
@@ -123,7 +125,7 @@ impl Settings {
                 SharedRule::Overlap(contact) => self.scene.problems_of_overlap(contact),
                 SharedRule::Springs => self.scene.problems_of_springs(),
             };
-            found.iter_mut().for_each(|problem| name_variable(&mut problem.path));
+            found.iter_mut().for_each(|problem| self.name_variable(&mut problem.path));
             problems.append(&mut found);
         }
         problems
@@ -143,7 +145,7 @@ impl Settings {
         let mut problems = self.scene.check().err().map_or_else(Vec::new, |error| error.problems);
         let of_scaling = self.problem_of_scaling().filter(|of| !problems.iter().any(|known| known.path == of.path));
         problems.extend(of_scaling);
-        problems.iter_mut().for_each(|problem| name_variable(&mut problem.path));
+        problems.iter_mut().for_each(|problem| self.name_variable(&mut problem.path));
         if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
     }
 
@@ -154,8 +156,18 @@ impl Settings {
             scene.ground.record = Some(path.clone());
         }
         let mut warnings = warnings::of(&scene, self.record());
-        warnings.iter_mut().for_each(|warning| name_variable(&mut warning.path));
+        warnings.iter_mut().for_each(|warning| self.name_variable(&mut warning.path));
         warnings
+    }
+
+    /// The name of the variable that a path in the scene stands for: of a building of a row it begins with its name.
+    fn name_variable(&self, path: &mut String) {
+        let key_of = |building: &Building| Some((building.name.clone(), path.strip_prefix(&building.path)?.to_owned()));
+        let in_building = self.scene.buildings.iter().filter_map(key_of).find(|(_, key)| key.starts_with('.'));
+        if let Some((name, key)) = in_building {
+            *path = name + &key;
+        }
+        rename_key(path);
     }
 
     /// What is done to a record that has been chosen instead of the scene's, where the scene says a peak.
@@ -220,8 +232,8 @@ fn without_pga(mut error: SceneError, record: &str) -> SceneError {
     error
 }
 
-/// The parameters whose names are not their paths in the scene.
-fn name_variable(path: &mut String) {
+/// The parameters whose names are not their keys in the scene.
+fn rename_key(path: &mut String) {
     for (key, name) in [
         (".damping.ratio", ".damping_ratio"),
         (".damping.dashpots[", ".dashpot["),

@@ -347,5 +347,5 @@ fn too_short(record: &Record) -> SceneError {
 
 fn not_positive_definite(building: &Building) -> SceneError {
     let expected = "a positive definite stiffness with natural frequencies that double precision can hold";
-    Problem::new(format!("{}.stiffness", building.name), "", expected).into()
+    Problem::new(format!("{}.stiffness", building.path), "", expected).into()
 }

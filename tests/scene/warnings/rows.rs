@@ -1,7 +1,8 @@
 //! What is odd about a row of buildings.
 
 use super::found;
-use pounding::scene::Scene;
+use pounding::scene::{Damping, Scene};
+use pounding::variables::Settings;
 use pounding::warnings;
 
 fn told(text: &str) -> Vec<String> {
@@ -73,4 +74,18 @@ fn gaps_of_facing_stand_in_its_table() {
     let scene = Scene::from_toml(&text).unwrap();
     let paths: Vec<String> = warnings::of_file(&scene, None).into_iter().map(|warning| warning.path).collect();
     assert_eq!(paths, ["facing.gap[2]"], "and likewise at the wall");
+}
+
+/// An FMU tells of its variables, whose names begin with that of a building.
+#[test]
+fn an_fmu_names_its_variables() {
+    let mut settings = Settings::new(Scene::from_toml(&row(&["a", "b"], &[["a", "b"]])).unwrap(), None);
+    settings.scene.buildings[1].damping = Damping::Ratio(5.0);
+    let warnings: Vec<String> = settings.warnings().into_iter().map(|warning| warning.path).collect();
+    assert_eq!(warnings, ["b.damping_ratio"]);
+    settings.scene.buildings[0].mass[1] = -1.0;
+    settings.scene.buildings[1].damping = Damping::Ratio(-1.0);
+    let error = settings.check().unwrap_err();
+    let problems: Vec<&str> = error.problems.iter().map(|problem| problem.path.as_str()).collect();
+    assert_eq!(problems, ["a.mass[2]", "b.damping_ratio"]);
 }
