@@ -1,7 +1,7 @@
 //! Peaks beside what is read at the same time.
 
 use super::Run;
-use pounding::engine::{BuildingId, FoundationOutput, Output, PeakOf};
+use pounding::engine::{FoundationOutput, Output, PeakOf};
 
 /// A quantity whose peak is kept.
 pub struct Read {
@@ -15,7 +15,7 @@ pub struct Read {
 pub fn all(run: &Run) -> [Vec<Read>; 5] {
     let [mut displacements, mut drifts, mut accelerations, mut shears] = [const { Vec::new() }; 4];
     let read = |of: PeakOf, now: f64| Read { name: format!("{of:?}"), now, peak: run.peak(of) };
-    for side in [BuildingId::LEFT, BuildingId::RIGHT] {
+    for &side in &run.ids {
         for floor in 0..run.model.floors(side) {
             let moved = run.displacement(side, floor);
             displacements.push(read(PeakOf::Displacement(side, floor), moved));
@@ -43,7 +43,7 @@ fn sizes(run: &Run, kinds: &[Vec<Read>; 5], foundations: f64) -> [f64; 5] {
     let [displacements, _, accelerations, shears, _] =
         kinds.each_ref().map(|kind| kind.iter().fold(0.0, |largest: f64, read| largest.max(read.peak)));
     let (mut moved, mut sheared) = (displacements, shears);
-    for side in [BuildingId::LEFT, BuildingId::RIGHT] {
+    for &side in &run.ids {
         let of = |of| run.read(Output::Foundation(side, of));
         let height: f64 = run.leaning[side.index()].iter().sum();
         moved = moved.max(of(FoundationOutput::PeakDisplacement)).max(height * of(FoundationOutput::PeakRotation));
@@ -74,7 +74,7 @@ impl Watch {
     /// beyond their yield drift.
     pub fn look(&mut self, run: &Run) -> Result<(), String> {
         let time = run.state.time();
-        for side in [BuildingId::LEFT, BuildingId::RIGHT] {
+        for &side in &run.ids {
             let now = run.read(Output::Foundation(side, FoundationOutput::Acceleration)).abs();
             self.foundations = self.foundations.max(now);
         }

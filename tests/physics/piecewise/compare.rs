@@ -22,10 +22,8 @@ struct Beside<'a> {
 /// largest displacement and velocity of all floors so far.
 pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], tolerance: f64) -> Piecewise<'r> {
     let (mut run, mut other) = (Run::new(scene, Some(record)), Piecewise::new(scene, record));
-    let floors: Vec<_> = [BuildingId::LEFT, BuildingId::RIGHT]
-        .into_iter()
-        .flat_map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)))
-        .collect();
+    let floors: Vec<_> =
+        scene.ids().flat_map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor))).collect();
     let (mut most, mut fastest) = (0.0_f64, 0.0_f64);
     for &time in times {
         other.to(time);
@@ -67,7 +65,7 @@ impl Beside<'_> {
         for (place, [displacement, velocity], length) in
             [of_sway, (Place::Rotation, [F::Rotation, F::RotationRate], 0.1)]
         {
-            for side in [BuildingId::LEFT, BuildingId::RIGHT] {
+            for side in self.scene.ids() {
                 let Some(i) = Places(self.scene).find(side, place) else { continue };
                 let near = |of, expected: f64, size: f64| {
                     let got = self.run.read(Output::Foundation(side, of));

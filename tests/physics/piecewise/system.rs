@@ -7,8 +7,6 @@ use pounding::engine::BuildingId;
 use pounding::scene::{Building, ContactPair, Damping, Foundation, Place, Scene, Slip};
 use std::f64::consts::PI;
 
-const SIDES: [BuildingId; 2] = [BuildingId::LEFT, BuildingId::RIGHT];
-
 /// All that does not change in a run.
 pub struct System {
     pub mass: DVector<f64>,
@@ -45,7 +43,7 @@ pub struct Places<'s>(pub &'s Scene);
 impl Places<'_> {
     /// That of one displacement; `None` where the building has no such one.
     pub fn find(self, side: BuildingId, place: Place) -> Option<usize> {
-        let first = if side == BuildingId::LEFT { 0 } else { rows(&self.0.buildings[0]) };
+        let first: usize = self.0.buildings[..side.index()].iter().map(rows).sum();
         number(self.0.building(side), place).map(|of| first + of)
     }
 
@@ -54,13 +52,13 @@ impl Places<'_> {
     }
 
     pub fn count(self) -> usize {
-        rows(&self.0.buildings[0]) + rows(&self.0.buildings[1])
+        self.0.buildings.iter().map(rows).sum()
     }
 
     /// A vector of numbers of all floors; foundations have 0.
     pub fn of_floors(self, of: impl Fn(&Building) -> &Vec<f64>) -> DVector<f64> {
         let mut all = DVector::zeros(self.count());
-        for side in SIDES {
+        for side in self.0.ids() {
             let numbers = of(self.0.building(side)).iter().enumerate();
             numbers.for_each(|(floor, number)| all[self.at(side, Place::Floor(floor))] = *number);
         }
@@ -90,16 +88,16 @@ impl System {
         let places = Places(scene);
         let (mut mass, n) = (places.of_floors(|building| &building.mass), places.count());
         let mut pushed = DVector::from_element(n, 1.0);
-        for side in SIDES {
+        for side in scene.ids() {
             let Some(of) = &scene.building(side).foundation else { continue };
             places.find(side, Place::Foundation).iter().for_each(|at| mass[*at] = of.mass);
             places.find(side, Place::Rotation).iter().for_each(|at| (mass[*at], pushed[*at]) = (of.inertia, 0.0));
         }
         let mut system = System { mass, pushed, damping: DMatrix::zeros(n, n), storeys: Vec::new(), pairs: Vec::new() };
-        SIDES.into_iter().for_each(|side| system.add_frame(places, side));
+        scene.ids().for_each(|side| system.add_frame(places, side));
         system.add_links(places);
-        SIDES.into_iter().for_each(|side| system.add_gravity(places, side));
-        SIDES.into_iter().for_each(|side| system.add_soil(places, side));
+        scene.ids().for_each(|side| system.add_gravity(places, side));
+        scene.ids().for_each(|side| system.add_soil(places, side));
         system.pairs = scene.contacts.iter().map(|pair| Pair::of(pair, places, &system.mass)).collect();
         system
     }
