@@ -34,7 +34,7 @@ STEPS = 2000
 def scenes():
     """The files by the names of their cases, in a fixed order. A name is a path: no two files have the same."""
     files = [file for folder in SCENES for file in sorted((ROOT / folder).rglob("*.toml"))]
-    files = [file for file in files if "left" in tomllib.loads(file.read_text())]
+    files = [file for file in files if {"left", "building"} & tomllib.loads(file.read_text()).keys()]
     return {"-".join(file.relative_to(ROOT).with_suffix("").parts): file for file in files}
 
 
