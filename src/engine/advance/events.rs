@@ -5,6 +5,7 @@ use crate::contact::EpisodeForce;
 use crate::engine::base::contact::Episode;
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
 
@@ -14,6 +15,7 @@ impl Model {
         &self,
         base: &mut Base,
         event: Event,
+        inputs: &Inputs,
         work: &mut Buffers,
         on_episode: &mut dyn FnMut(&Episode),
     ) {
@@ -21,7 +23,7 @@ impl Model {
         match event {
             Event::Entry(p) if self.system.pairs[p].law.is_rigid() => {
                 self.system.convert(base, Coordinates::Modes, [&mut work.q, &mut work.v]);
-                self.system.resolve_contact(base, p, work, on_episode);
+                self.system.resolve_contact(base, p, inputs, work, on_episode);
             }
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];

@@ -218,6 +218,7 @@ impl Model {
         // Penetrations of open contacts are measured on `q` with the new gaps; of closed ones the step knows them
         // better.
         self.move_contacts(base, planned);
+        self.system.track_on(base, inputs, &mut work.buffers);
         // Floors that are held together are put together again, by what rounding has moved them apart: after the
         // contacts, whose phases say which they are and whose penetrations do not change by it.
         self.system.project_constraints(base, &mut work.buffers);
@@ -232,7 +233,7 @@ impl Model {
             work.note(event, base.time());
             let Base { oscillates, q, v, .. } = base;
             self.system.to_modes((oscillates, q, v), [&mut work.buffers.q, &mut work.buffers.v]);
-            self.handle(base, event, &mut work.buffers, on_episode);
+            self.handle(base, event, inputs, &mut work.buffers, on_episode);
         }
         // Rates are those of the floors from now on, of which the step has other last digits, and impulses elsewhere
         // change them at once: the forces that are read from here on count.
@@ -310,7 +311,7 @@ impl Model {
             contact.tracked = false;
             if let Some((penetration, rate)) = *tracked {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.tracked = self.system.is_close(p, penetration, base.coordinates, &base.q);
+                contact.tracked = true;
                 continue;
             }
             // That of a closed contact the step has followed.

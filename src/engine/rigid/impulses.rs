@@ -7,19 +7,21 @@
 //! below rounding; from then on the floors stay together, and a reaction keeps their relative acceleration 0, power by
 //! power of the series.
 //!
-//! Where an impulse at one pair closes another, as between two walls, the pairs of a floor that is squeezed hit in turn at
-//! intervals that shrink faster than their velocities. Infinitely many impulses leave no velocity in any of them, in no
-//! time: pairs that are closed to rounding and would close each other are solved together without restitution.
+//! Where the impulses of some pairs close others that touch, as between two walls, these hit in turn, at the same instant: round
+//! after round on the velocities alone, until no pair that touches approaches by more than rounding. If that takes more than
+//! [`MOST_ROUNDS`], what is left is little, and is taken without restitution.
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::{ContactPhase, Episode};
+use crate::engine::base::contact::{Contact, ContactPhase, Episode};
 use crate::engine::base::element::Sense;
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::rigid::rounding::Rounding;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;
 
-/// A relative velocity below this share of the floors' velocities is rounding: some hundred rounding errors.
-const STILL: f64 = 3e-14;
+/// Rounds of impulses at one instant: a mass between two others of a million times its mass that lose nothing takes a third.
+const MOST_ROUNDS: usize = 10_000;
 
 impl System {
     /// Handles the contact of a rigid pair: an impulse, or where its approach velocity is rounding, the floors stay
@@ -28,64 +30,110 @@ impl System {
         &self,
         base: &mut Base,
         first: usize,
+        inputs: &Inputs,
         work: &mut Buffers,
         on_episode: &mut dyn FnMut(&Episode),
     ) {
-        let (approach, still) = self.approach(base, first);
+        self.find_rounding(base, inputs, work);
+        self.find_rates(base, work);
         let contact = &mut base.contacts[first];
         contact.penetration = 0.0;
         contact.at_surface = true;
-        if approach > still {
-            self.apply_impulses(base, first, work, on_episode);
+        if contact.rate > 0.0 {
+            self.apply_impulses(base, work, on_episode);
         } else {
             self.begin_persistent(base, first, work);
         }
     }
 
-    /// (rate, noise): the approach velocity of a rigid pair and its rounding error, m/s.
-    fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
-        let contact = &base.contacts[p];
-        let (rate, size) = self.pairs[p].row.difference(base.coordinates, &base.v);
-        let rate = if contact.tracked || contact.is_held() { contact.rate } else { rate };
-        (rate, STILL * size)
+    /// Brings the approach velocities of all rigid pairs up to date, without what is rounding.
+    fn find_rates(&self, base: &mut Base, work: &Buffers) {
+        for (&p, rounding) in self.rigid.pairs.iter().zip(&work.rounding) {
+            let contact = &base.contacts[p];
+            let is_known = contact.tracked || contact.is_held();
+            let rate = if is_known { contact.rate } else { self.pairs[p].row.value(base.coordinates, &base.v) };
+            base.contacts[p].rate = if rate.abs() <= rounding.rate { 0.0 } else { rate };
+        }
     }
 
-    /// Finds and applies the impulses of all rigid pairs that meet now, given that pair `first` does.
-    fn apply_impulses(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
-        let rigid = &mut work.rigid;
-        rigid.clear();
-        for (k, &p) in self.rigid.pairs.iter().enumerate() {
-            let (rate, still) = self.approach(base, p);
-            let rate = if p != first && rate.abs() <= still { 0.0 } else { rate };
-            base.contacts[p].rate = rate;
-            if rate >= 0.0 && self.is_closed(base, p) {
-                rigid.add(k, (1.0 + self.returned_share(base, p)) * rate, 0.0);
+    /// Finds and applies the impulses of all rigid pairs that meet now.
+    fn apply_impulses(&self, base: &mut Base, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+        for round in 0..=MOST_ROUNDS {
+            let returns = round < MOST_ROUNDS;
+            if !self.select_touching(base, returns, work) {
+                break;
             }
-        }
-        rigid.push(&self.rigid.matrix);
-        let is_squeezed = self.close_squeezed(base, rigid);
-        let share = |&k: &usize| if is_squeezed { 0.0 } else { self.returned_share(base, self.rigid.pairs[k]) };
-        let shares = rigid.pairs.iter().map(share);
-        rigid.known.clear();
-        rigid.known.extend(shares);
-        self.push_apart(rigid, &mut base.v);
-        for (k, &p) in self.rigid.pairs.iter().enumerate() {
-            let taken = rigid.pairs.iter().position(|&other| other == k).filter(|&i| rigid.found[i] > 0.0);
-            match taken {
-                Some(i) if base.contacts[p].is_held() => base.contacts[p].pass_on(rigid.found[i]),
-                Some(i) => self.book_impulse(base, p, rigid.known[i], rigid.found[i], on_episode),
-                None => {
-                    let change = self.change_of_rate(rigid, k);
-                    let contact = &mut base.contacts[p];
-                    contact.rate -= change;
-                    if contact.is_held() && change > 0.0 {
-                        base.release(p, on_episode);
-                    }
-                }
-            }
+            work.rigid.push(&self.rigid.matrix);
+            self.push_apart(&work.rigid, &mut base.v);
+            self.book_round(base, returns, work, on_episode);
         }
         self.update_soft_rates(base);
         self.turn_storeys(base);
+    }
+
+    /// Lists in `work.rigid` the pairs that touch and approach, or stay: with restitution, or if not, also those that part.
+    /// Returns whether any approaches.
+    fn select_touching(&self, base: &Base, returns: bool, work: &mut Buffers) -> bool {
+        let Buffers { rigid, rounding, .. } = work;
+        rigid.clear();
+        let mut approaches = false;
+        for (k, (&p, rounding)) in self.rigid.pairs.iter().zip(&*rounding).enumerate() {
+            let contact = &base.contacts[p];
+            if touches(contact, rounding) && (contact.rate >= 0.0 || !returns) {
+                approaches |= contact.rate > 0.0;
+                rigid.add(k, (1.0 + self.returned_share(contact, p, returns, rounding)) * contact.rate, 0.0);
+            }
+        }
+        approaches
+    }
+
+    /// Records the impulses found, and what they have changed of the approach velocities of the other pairs.
+    fn book_round(&self, base: &mut Base, returns: bool, work: &Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+        let Buffers { rigid, rounding, .. } = work;
+        for (k, (&p, rounding)) in self.rigid.pairs.iter().zip(rounding).enumerate() {
+            let taken = rigid.pairs.iter().position(|&other| other == k).filter(|&i| rigid.found[i] > 0.0);
+            let Some(i) = taken else {
+                self.change_rate(base, k, rigid, rounding, on_episode);
+                continue;
+            };
+            match base.contacts[p].is_held() {
+                true => base.contacts[p].pass_on(rigid.found[i]),
+                false => {
+                    let restitution = self.returned_share(&base.contacts[p], p, returns, rounding);
+                    book_impulse(base, p, restitution, rigid.found[i], on_episode);
+                }
+            }
+        }
+    }
+
+    /// Takes from the rate of rigid pair `k` what the impulses of others have changed; floors that were held and now part are
+    /// released.
+    fn change_rate(
+        &self,
+        base: &mut Base,
+        k: usize,
+        rigid: &Complementarity,
+        rounding: &Rounding,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) {
+        let p = self.rigid.pairs[k];
+        let change: f64 =
+            rigid.pairs.iter().zip(&rigid.found).map(|(&other, impulse)| self.rigid.matrix[(k, other)] * impulse).sum();
+        let contact = &mut base.contacts[p];
+        let rate = contact.rate - change;
+        contact.rate = if rate.abs() <= rounding.rate { 0.0 } else { rate };
+        // The floors' velocities have rounding of what they were before, which may be far more than what they are now.
+        contact.tracked |= touches(contact, rounding) && !contact.is_held();
+        if contact.is_held() && contact.rate < 0.0 {
+            base.release(p, on_episode);
+        }
+    }
+
+    /// The coefficient of restitution of an impact of pair `p` now; 0 where the rebound velocity would be rounding, or nothing
+    /// `returns`.
+    fn returned_share(&self, contact: &Contact, p: usize, returns: bool, rounding: &Rounding) -> f64 {
+        let restitution = self.pairs[p].law.restitution;
+        if returns && restitution * contact.rate > rounding.rate { restitution } else { 0.0 }
     }
 
     /// Storeys whose drift an impulse has turned back are elastic again.
@@ -98,90 +146,6 @@ impl System {
             }
             element.turned = None;
         }
-    }
-
-    /// Where the impulses found would close pairs that are apart by rounding only, finds those of all such pairs together,
-    /// without restitution; returns whether there are any.
-    fn close_squeezed(&self, base: &Base, rigid: &mut Complementarity) -> bool {
-        let touches = |p: usize| {
-            let contact = &base.contacts[p];
-            contact.tracked && contact.penetration >= -self.noise_now(base, p)
-        };
-        let is_closed_by_others = |k: usize| {
-            let p = self.rigid.pairs[k];
-            let (rate, still) = self.approach(base, p);
-            rate < 0.0 && rate - self.change_of_rate(rigid, k) > still && touches(p)
-        };
-        let count = self.rigid.pairs.len();
-        if !(0..count).any(|k| !rigid.pairs.contains(&k) && is_closed_by_others(k)) {
-            return false;
-        }
-        rigid.clear();
-        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| self.is_closed(base, p) || touches(p)) {
-            rigid.add(k, base.contacts[p].rate, 0.0);
-        }
-        rigid.push(&self.rigid.matrix);
-        true
-    }
-
-    /// What the impulses found take from the rate of rigid pair `k`, m/s.
-    fn change_of_rate(&self, rigid: &Complementarity, k: usize) -> f64 {
-        rigid.pairs.iter().zip(&rigid.found).map(|(&other, impulse)| self.rigid.matrix[(k, other)] * impulse).sum()
-    }
-
-    /// Rounding error of a penetration now, m.
-    fn noise_now(&self, base: &Base, p: usize) -> f64 {
-        self.pairs[p].noise(self.pairs[p].row.difference(base.coordinates, &base.q).1)
-    }
-
-    /// Whether the floors of a rigid pair touch now.
-    fn is_closed(&self, base: &Base, p: usize) -> bool {
-        let contact = &base.contacts[p];
-        let noise = if contact.tracked { 0.0 } else { self.noise_now(base, p) };
-        contact.is_held() || contact.at_surface || contact.penetration >= -noise
-    }
-
-    /// The coefficient of restitution of an impact now; 0 where the rebound velocity would be rounding.
-    fn returned_share(&self, base: &Base, p: usize) -> f64 {
-        let restitution = self.pairs[p].law.restitution;
-        let (rate, still) = self.approach(base, p);
-        if restitution * rate > still { restitution } else { 0.0 }
-    }
-
-    /// Records an impulse, N s, as an episode without duration.
-    fn book_impulse(
-        &self,
-        base: &mut Base,
-        p: usize,
-        restitution: f64,
-        impulse: f64,
-        on_episode: &mut dyn FnMut(&Episode),
-    ) {
-        let time = base.time();
-        let contact = &mut base.contacts[p];
-        // A pair that is squeezed may have been on its way apart.
-        let approach = contact.rate;
-        let lost = 0.5 * impulse * (1.0 - restitution) * approach;
-        contact.rate = -restitution * approach;
-        contact.penetration = 0.0;
-        contact.at_surface = true;
-        contact.tracked = true;
-        contact.impacts += 1;
-        contact.impulse += impulse;
-        contact.work += lost;
-        contact.episode = Episode {
-            contact: p,
-            start: time,
-            end: Some(time),
-            approach_velocity: approach.max(0.0),
-            separation_velocity: restitution * approach.max(0.0),
-            peak_time: time,
-            impulse,
-            dissipated_energy: lost,
-            ..Episode::default()
-        };
-        base.impacts += 1;
-        on_episode(&base.contacts[p].episode);
     }
 
     /// Updates the rates of the soft pairs: an impulse changes that of every pair with a common floor at once.
@@ -210,4 +174,38 @@ impl System {
         base.last_length = 0.0;
         self.project_constraints(base, work);
     }
+}
+
+/// Whether the floors of a rigid pair touch now.
+fn touches(contact: &Contact, rounding: &Rounding) -> bool {
+    contact.is_held() || contact.at_surface || contact.penetration >= -rounding.distance
+}
+
+/// Records an impulse, N s, as an episode without duration.
+fn book_impulse(base: &mut Base, p: usize, restitution: f64, impulse: f64, on_episode: &mut dyn FnMut(&Episode)) {
+    let time = base.time();
+    let contact = &mut base.contacts[p];
+    // A pair that is squeezed may have been on its way apart.
+    let approach = contact.rate;
+    let lost = 0.5 * impulse * (1.0 - restitution) * approach;
+    contact.rate = -restitution * approach;
+    contact.penetration = 0.0;
+    contact.at_surface = true;
+    contact.tracked = true;
+    contact.impacts += 1;
+    contact.impulse += impulse;
+    contact.work += lost;
+    contact.episode = Episode {
+        contact: p,
+        start: time,
+        end: Some(time),
+        approach_velocity: approach.max(0.0),
+        separation_velocity: restitution * approach.max(0.0),
+        peak_time: time,
+        impulse,
+        dissipated_energy: lost,
+        ..Episode::default()
+    };
+    base.impacts += 1;
+    on_episode(&base.contacts[p].episode);
 }

@@ -3,3 +3,4 @@
 pub(super) mod impulses;
 pub(super) mod reactions;
 pub(super) mod rebounds;
+pub(super) mod rounding;

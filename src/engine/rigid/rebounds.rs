@@ -1,8 +1,8 @@
 //! Rigid pairs near the surface: the step length up to the next rebound, and their penetration and rate at its end.
 
+use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{Event, Tracked};
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
@@ -10,10 +10,6 @@ use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_TERMS, value_and_slope};
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, difference};
-
-/// A rigid pair is tracked by its own increments while it is at most this many rounding errors of its penetration
-/// apart.
-const CLOSE: f64 = 1e6;
 
 /// Share of the remaining time for which floors are held together when rounding cannot tell them from free ones.
 const SHORT_WHILE: f64 = 1e-3;
@@ -74,11 +70,6 @@ impl System {
                 (penetration, slope / series.scale)
             });
         }
-    }
-
-    /// Whether a rigid pair at this penetration, m, is to be tracked.
-    pub(crate) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
-        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].row.difference(coordinates, q).1)
     }
 }
 

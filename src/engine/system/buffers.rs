@@ -1,6 +1,7 @@
 //! Scratch vectors that all kinds of steps share; their content means nothing between calls, but for the load of the
 //! step that is being planned.
 
+use crate::engine::rigid::rounding::Rounding;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
 use crate::numerics::powers::Powers;
@@ -40,6 +41,8 @@ pub struct Buffers {
     pub powers: Powers,
     /// The problem of the reactions or impulses of rigid pairs.
     pub rigid: Complementarity,
+    /// What of the motion of each rigid pair is rounding, while its contact is resolved.
+    pub rounding: Vec<Rounding>,
 }
 
 impl Buffers {
@@ -67,6 +70,7 @@ impl Buffers {
             account: WorkRoom::new(structure),
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
+            rounding: Vec::with_capacity(rigid),
         }
     }
 }

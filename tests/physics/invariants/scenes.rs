@@ -37,6 +37,7 @@ pub static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(of_masters());
     rows.extend(of_corrections());
     rows.extend(of_tall_buildings());
+    rows.extend(of_rows_of_buildings());
     rows
 });
 
@@ -316,6 +317,16 @@ fn of_single_buildings() -> Vec<Row> {
         Row::new("one building alone", shaken(&moving, 4, 6.0)).switches(10),
         Row::new("one building on soil", shaken(ON_SOIL, 4, 6.0)).switches(10),
         Row::new("one building at a wall", shaken(&format!("{moving}{wall}"), 4, 6.0)).impacts(3),
+    ]
+}
+
+/// Three buildings and more.
+fn of_rows_of_buildings() -> Vec<Row> {
+    vec![
+        Row::new("a row under damped springs", of_file("row_soft", 6.0)).impacts(20),
+        Row::new("a row of rigid floors", of_file("row_rigid", 6.0)).impacts(5),
+        Row::new("a row by levels, between walls", of_file("row_facing", 5.0)).impacts(10),
+        Row::new("a row that yields, on soil and linked", of_file("row_soil_yielding", 5.0)).impacts(5).switches(20),
     ]
 }
 

@@ -6,6 +6,7 @@ mod impulses;
 mod joined;
 mod out_of_reach;
 mod same;
+mod touching;
 
 use crate::common::scene;
 use pounding::scene::Scene;
