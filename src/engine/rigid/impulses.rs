@@ -74,12 +74,14 @@ impl System {
     /// Lists in `work.rigid` the pairs that touch and approach, or stay: with restitution, or if not, also those that part.
     /// Returns whether any approaches.
     fn select_touching(&self, base: &Base, returns: bool, work: &mut Buffers) -> bool {
-        let Buffers { rigid, rounding, .. } = work;
+        self.find_parting(base, work);
+        let Buffers { rigid, rounding, parts, .. } = work;
         rigid.clear();
         let mut approaches = false;
         for (k, (&p, rounding)) in self.rigid.pairs.iter().zip(&*rounding).enumerate() {
             let contact = &base.contacts[p];
-            if touches(contact, rounding) && (contact.rate >= 0.0 || !returns) {
+            let is_closed = contact.rate > 0.0 || contact.rate == 0.0 && !parts[k];
+            if rounding.touches(contact) && (is_closed || !returns) {
                 approaches |= contact.rate > 0.0;
                 rigid.add(k, (1.0 + self.returned_share(contact, p, returns, rounding)) * contact.rate, 0.0);
             }
@@ -123,7 +125,7 @@ impl System {
         let rate = contact.rate - change;
         contact.rate = if rate.abs() <= rounding.rate { 0.0 } else { rate };
         // The floors' velocities have rounding of what they were before, which may be far more than what they are now.
-        contact.tracked |= touches(contact, rounding) && !contact.is_held();
+        contact.tracked |= rounding.touches(contact) && !contact.is_held();
         if contact.is_held() && contact.rate < 0.0 {
             base.release(p, on_episode);
         }
@@ -174,11 +176,6 @@ impl System {
         base.last_length = 0.0;
         self.project_constraints(base, work);
     }
-}
-
-/// Whether the floors of a rigid pair touch now.
-fn touches(contact: &Contact, rounding: &Rounding) -> bool {
-    contact.is_held() || contact.at_surface || contact.penetration >= -rounding.distance
 }
 
 /// Records an impulse, N s, as an episode without duration.

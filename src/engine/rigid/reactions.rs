@@ -3,6 +3,7 @@
 
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::excitation::inputs::Inputs;
+use crate::engine::rigid::rounding::Rounding;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;
@@ -54,6 +55,37 @@ impl System {
     }
 
     fn solve_reactions_to_load(&self, base: &Base, work: &mut Buffers) -> Option<usize> {
+        self.react(base, work, |k| base.contacts[self.rigid.pairs[k]].is_held());
+        let Buffers { rigid, q: acceleration, .. } = work;
+        let pairs = rigid.pairs.iter().enumerate().map(|(i, &k)| (i, self.rigid.pairs[k]));
+        let decided = pairs.filter(|&(_, p)| !base.contacts[p].undecided);
+        decided.filter(|&(i, p)| self.moves_apart(rigid, i, p, acceleration)).map(|(_, p)| p).next()
+    }
+
+    /// Which of the rigid pairs that touch and stay would move apart at once, by the load in `work`: `work.parts`.
+    pub(super) fn find_parting(&self, base: &Base, work: &mut Buffers) {
+        work.parts.clear();
+        work.parts.resize(self.rigid.pairs.len(), false);
+        let rests = |rounding: &[Rounding], k: usize| {
+            let contact = &base.contacts[self.rigid.pairs[k]];
+            contact.rate == 0.0 && rounding[k].touches(contact)
+        };
+        let is_held = |k: usize| base.contacts[self.rigid.pairs[k]].is_held();
+        if (0..self.rigid.pairs.len()).all(|k| is_held(k) || !rests(&work.rounding, k)) {
+            return;
+        }
+        let rounding = std::mem::take(&mut work.rounding);
+        self.react(base, work, |k| rests(&rounding, k));
+        work.rounding = rounding;
+        let Buffers { rigid, parts, q: acceleration, .. } = work;
+        for (i, &k) in rigid.pairs.iter().enumerate() {
+            parts[k] = !is_held(k) && self.moves_apart(rigid, i, self.rigid.pairs[k], acceleration);
+        }
+    }
+
+    /// Works out, to the load in `work`, the modal accelerations with all contact forces in `work.q` and the reactions in
+    /// `work.rigid`, of the rigid pairs that `may_react`.
+    fn react(&self, base: &Base, work: &mut Buffers, may_react: impl Fn(usize) -> bool) {
         work.node_q.copy_from_slice(&work.load);
         for (p, contact) in touching(base) {
             if !contact.is_held() {
@@ -63,18 +95,17 @@ impl System {
         self.structure.accelerate(&base.q, &base.v, &work.node_q, &mut work.q);
         let Buffers { rigid, q: acceleration, .. } = work;
         rigid.clear();
-        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
+        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(k, _)| may_react(k)) {
             let (pressing, size) = difference(&self.pairs[p].row.modes, acceleration);
             rigid.add(k, pressing, 8.0 * f64::EPSILON * size);
         }
         rigid.push(&self.rigid.matrix);
         self.push_apart(rigid, acceleration);
-        let apart = (0..rigid.pairs.len()).find(|&i| {
-            let p = self.rigid.pairs[rigid.pairs[i]];
-            let moves_apart = dot(&self.pairs[p].row.modes, acceleration) < -rigid.noise[i];
-            rigid.found[i] == 0.0 && moves_apart && !base.contacts[p].undecided
-        })?;
-        Some(self.rigid.pairs[rigid.pairs[apart]])
+    }
+
+    /// Whether pair `p`, at place `i` of the problem, has no reaction and moves apart.
+    fn moves_apart(&self, rigid: &Complementarity, i: usize, p: usize, acceleration: &[f64]) -> bool {
+        rigid.found[i] == 0.0 && dot(&self.pairs[p].row.modes, acceleration) < -rigid.noise[i]
     }
 
     /// Adds to one power of the modal accelerations the part of the reactions that keeps held floors together; their

@@ -1,23 +1,39 @@
 //! What of the motion of a rigid pair is rounding.
 
 use crate::engine::base::Base;
+use crate::engine::base::contact::Contact;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
-/// A relative motion below this share of the floors' own is rounding: some fifty rounding errors.
+/// A relative velocity below this share of the floors' own is rounding: some fifty rounding errors.
 const STILL: f64 = 1e-14;
 
+/// Rounding of a penetration, as a share of the floors' own displacements.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
 /// A rigid pair is tracked by its own increments while it is at most this many times the rounding of its penetration apart.
-const CLOSE: f64 = 3e4;
+const CLOSE: f64 = 1e6;
+
+/// Floors that have moved together since they touched are at most this many times that rounding apart: as many as of their
+/// velocities.
+const TOGETHER: f64 = 32.0;
 
 /// What of a relative motion is rounding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Rounding {
-    /// Floors that are no further apart touch, m.
+    /// Of the penetration, m.
     pub distance: f64,
-    /// An approach velocity that is no larger is none, m/s.
+    /// Of its rate: an approach velocity that is no larger is none, m/s.
     pub rate: f64,
+}
+
+impl Rounding {
+    /// Whether the floors of a contact, whose rate is 0 where it is rounding, touch.
+    pub(super) fn touches(&self, contact: &Contact) -> bool {
+        let apart = if contact.rate == 0.0 { TOGETHER * self.distance } else { self.distance };
+        contact.is_held() || contact.at_surface || contact.penetration >= -apart
+    }
 }
 
 impl System {
@@ -42,7 +58,7 @@ impl System {
             distance += (row * (q.abs() + time * (v.abs() + time * load.abs()))).abs();
             rate += (row * (v.abs() + omega * q.abs() + time * load.abs())).abs();
         }
-        Rounding { distance: STILL * distance, rate: STILL * rate }
+        Rounding { distance: ROUNDING * distance, rate: STILL * rate }
     }
 
     /// Which rigid pairs that were tracked are to be tracked on: rebounds that die out are far smaller than the rounding errors of

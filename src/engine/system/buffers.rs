@@ -43,6 +43,8 @@ pub struct Buffers {
     pub rigid: Complementarity,
     /// What of the motion of each rigid pair is rounding, while its contact is resolved.
     pub rounding: Vec<Rounding>,
+    /// Whether each rigid pair, if it touches and stays, would move apart at once.
+    pub parts: Vec<bool>,
 }
 
 impl Buffers {
@@ -71,6 +73,7 @@ impl Buffers {
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
             rounding: Vec::with_capacity(rigid),
+            parts: Vec::with_capacity(rigid),
         }
     }
 }

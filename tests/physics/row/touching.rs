@@ -46,6 +46,31 @@ fn masses_before_a_wall_hit_in_turn() {
     }
 }
 
+/// A mass that stands at a wall, with no restitution there, is hit. What presses it to the wall makes it a part of that: the other
+/// one rebounds with e V. From a wall that it would leave it is hit by itself, again and again, until nothing is left.
+#[test]
+fn a_mass_at_a_wall_is_hit_as_it_leans() {
+    let building = |speed: f64| {
+        format!(
+            "[[building]]\nmass = [2.0]\nstiffness = [8.0]\ndamping = {{ ratio = 0 }}\ninitial_displacement = [0.01]\n\
+             initial_velocity = [{speed:?}]\n"
+        )
+    };
+    let at_wall = wall(2, "right", &rigid(0.0)).replace("gap = 0.0", "gap = 0.01");
+    for (ground, expected) in [(-1.0, -0.5 * 0.3), (0.0, 0.0)] {
+        let text = format!(
+            "name = \"Wall\"\n{}{}{}{at_wall}[ground]\nrecord = \"record.csv\"\n",
+            building(0.3),
+            building(0.0),
+            contact(0, 1, 0.0, &rigid(0.5))
+        );
+        let mut run = Run::new(&scene(&text), Some(&record(1.0, &[ground, ground])));
+        run.to(1e-9);
+        let v = [0, 1].map(|place| run.velocity(BuildingId::new(place), 0));
+        assert!((v[0] - expected).abs() < 1e-8 && v[1].abs() < 1e-8, "under {ground} m/s2: {v:?}");
+    }
+}
+
 /// A mass that is next to none between two that close on it, and hardly anything lost: they would hit each other a hundred thousand
 /// times before they have one velocity, that of their momentum. What the last nine tenths would leave is taken at once.
 #[test]
