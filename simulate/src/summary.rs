@@ -324,7 +324,15 @@ impl Run<'_> {
         let scale = |quantity, unit| Scale::of(unit, contacts.iter().filter_map(|contact| last(*contact, quantity)));
         let scaled = [("peak_force", "N"), ("impulse", "N s"), ("dissipated_energy", "J")];
         let scales = scaled.map(|(quantity, unit)| scale(quantity, unit));
-        let meeting = |contact: usize| Some(self.1?.contacts.get(contact - 1)?.brief(self.1?));
+        let name = |contact: usize| {
+            let Some((scene, pair)) = self.1.and_then(|scene| Some((scene, scene.contacts.get(contact - 1)?))) else {
+                return format!("{contact}");
+            };
+            match scene.is_row() {
+                true => format!("contact {contact}: {}", pair.meeting_by_floors(scene)),
+                false => format!("{contact}: {}", pair.brief(scene)),
+            }
+        };
         let mut table = Table::new(&[
             (if self.is_long() { "hardest contacts" } else { "contact" }, ""),
             ("gap", "m"),
@@ -338,9 +346,8 @@ impl Run<'_> {
             let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
             let scaled = |k: usize| last(contact, scaled[k].0).map_or(String::new(), |value| scales[k].cell(value));
             let gap = self.seen(&format!("contact[{contact}].gap"));
-            let meeting = meeting(contact).map_or(String::new(), |meeting| format!(": {meeting}"));
             table.row([
-                format!("{contact}{meeting}"),
+                name(contact),
                 gap.map_or(String::new(), |seen| format!("{}", seen.last)),
                 number("impacts", |seen| seen.last),
                 scaled(0),

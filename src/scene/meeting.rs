@@ -38,7 +38,15 @@ impl ContactPair {
     /// What meets, for a person: "between left floor 1 and right floor 1", "of left floor 3, level 11.1 m, against columns
     /// of right storey 4 at 0.35".
     pub fn meeting(&self, scene: &Scene) -> String {
-        let [left, right] = [&self.left, &self.right].map(|face| face.name(scene));
+        self.told([&self.left, &self.right].map(|face| face.name(scene)))
+    }
+
+    /// The same without levels, for a table beside which they stand: "between left floor 1 and right floor 1".
+    pub fn meeting_by_floors(&self, scene: &Scene) -> String {
+        self.told([&self.left, &self.right].map(|face| face.name_without_level(scene)))
+    }
+
+    fn told(&self, [left, right]: [String; 2]) -> String {
         let text = match (self.left, self.right) {
             (Face::Floor(..), Face::Floor(..)) => format!("between {left} and {right}"),
             (Face::Floor(..), Face::Wall) => format!("of {left} against the wall on its right"),
@@ -90,12 +98,20 @@ impl Face {
 
     /// For a person, in a scene whose buildings may have levels.
     fn name(&self, scene: &Scene) -> String {
+        let level = |heights: &Heights, floor| format!(", level {} m,", six_decimals(heights.level(floor)));
+        let name = self.name_without_level(scene);
         match *self {
-            Face::Floor(id, floor) => {
-                let Building { name, heights, .. } = scene.building(id);
-                let level = |heights: &Heights| format!(", level {} m,", six_decimals(heights.level(floor)));
-                format!("{name} floor {floor}{}", heights.as_ref().map(level).unwrap_or_default())
-            }
+            Face::Floor(id, floor) => match &scene.building(id).heights {
+                Some(heights) => name + &level(heights, floor),
+                None => name,
+            },
+            _ => name,
+        }
+    }
+
+    fn name_without_level(&self, scene: &Scene) -> String {
+        match *self {
+            Face::Floor(id, floor) => format!("{} floor {floor}", scene.building(id).name),
             Face::Columns { building: id, storey, position, .. } => {
                 format!("columns of {} storey {storey} at {}", scene.building(id).name, six_decimals(position))
             }

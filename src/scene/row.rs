@@ -10,6 +10,11 @@ impl Scene {
         BuildingId::row_of(self.buildings.len())
     }
 
+    /// Whether the file has the buildings as `[[building]]`, not as `[left]` and `[right]`.
+    pub fn is_row(&self) -> bool {
+        self.buildings.first().is_some_and(|building| building.path.starts_with("building"))
+    }
+
     /// Each building with the next one, from left to right.
     pub fn neighbours(&self) -> impl Iterator<Item = [BuildingId; 2]> + use<> {
         self.ids().zip(self.ids().skip(1)).map(|(left, right)| [left, right])

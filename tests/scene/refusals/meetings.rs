@@ -243,3 +243,21 @@ fn facing() {
         ["right: expected the building on the right, which contacts are with (missing)"]
     );
 }
+
+/// A table has the levels elsewhere; what meets is told without them.
+#[test]
+fn what_meets_in_a_row_is_told_by_floors() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
+    let read = |name: &str| Scene::from_toml(&std::fs::read_to_string(root.join(name)).unwrap()).unwrap();
+    let told = |scene: &Scene| scene.contacts.iter().map(|pair| pair.meeting_by_floors(scene)).collect::<Vec<_>>();
+    let (bridge, clinic, feup) = (read("bridge.toml"), read("clinic.toml"), read("feup.toml"));
+    assert!(bridge.is_row() && clinic.is_row() && !feup.is_row());
+    let of_walls = ["of west floor 1 against the wall on its left", "of east floor 1 against the wall on its right"];
+    assert_eq!([told(&bridge)[0].as_str(), &told(&bridge)[3]], of_walls);
+    assert_eq!(told(&clinic)[0], "between shop floor 1 and clinic floor 2");
+    assert!(
+        clinic.contacts[0].meeting(&clinic).contains("clinic floor 2, level "),
+        "{}",
+        clinic.contacts[0].meeting(&clinic)
+    );
+}
