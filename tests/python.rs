@@ -13,7 +13,7 @@ use std::process::Command;
 
 #[test]
 fn python() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let compiled = fmu_start::compile(root, true, |_| {}).unwrap();
     let mut pytest = Command::new(environment(root, "tests/python"));
     pytest

@@ -15,7 +15,7 @@ QUICKLY = ("--config", "profile.dev.opt-level=0", "--config", "profile.dev.debug
 def on_windows(host, toolchain):
     """What is wrong, a line each."""
     messages = run(
-        *"cargo test --locked --package pounding-fmu --lib --no-run --target".split(),
+        *"cargo test --locked --package pounding-units --lib --no-run --target".split(),
         host.platform.triple,
         *QUICKLY,
         "--message-format=json-render-diagnostics",

@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// A CSV file with comments: one map of column to value for each row; empty fields are left out.
 pub fn table(name: &str) -> Vec<HashMap<String, f64>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/golden").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/reference/golden").join(name);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -175,7 +175,7 @@ pub fn worst_of_contacts(golden: &Golden, scene: &Scene, run: &Run, name: &str) 
 }
 
 pub fn load(scene_path: &str) -> (Scene, Record) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(scene_path);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join(scene_path);
     let (mut scene, record) = scene::load(&path).unwrap();
     scene.energy = true;
     (scene, record.unwrap())

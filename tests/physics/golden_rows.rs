@@ -153,7 +153,10 @@ struct Switch {
 
 /// Those of all plastic steps above 1e-9 m, in the order of time.
 fn switches(name: &str) -> Vec<Switch> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/reference/golden/{name}.yields.csv"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap()
+        .join(format!("tests/reference/golden/{name}.yields.csv"));
     let text = std::fs::read_to_string(path).unwrap();
     let (mut begun, mut found) = (HashMap::new(), Vec::new());
     for line in text.lines().filter(|line| !line.starts_with('#')).skip(1) {

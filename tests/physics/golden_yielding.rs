@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// A CSV file with comments: one map of column to field for each row.
 fn table(name: &str) -> Vec<HashMap<String, String>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/golden").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/reference/golden").join(name);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -23,7 +23,11 @@ fn number(row: &HashMap<String, String>, column: &str) -> f64 {
 }
 
 fn run_of(name: &str) -> Run {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes").join(format!("{name}.toml"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap()
+        .join("tests/reference/scenes")
+        .join(format!("{name}.toml"));
     let (scene, record) = scene::load(&path).unwrap();
     Run::new(&scene, record.as_ref())
 }
@@ -169,7 +173,8 @@ fn collapse(name: &str) -> Option<(BuildingId, usize, f64, f64)> {
 /// Where no peaks are watched the motion is the same, and so is the ductility of storeys that have yielded.
 #[test]
 fn without_peaks() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/yielding_columns.toml");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/reference/scenes/yielding_columns.toml");
     let (mut scene, record) = scene::load(&path).unwrap();
     let runs = [true, false].map(|peaks| {
         scene.peaks = peaks;

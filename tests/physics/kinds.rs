@@ -62,7 +62,7 @@ fn told(name: &str, counters: &Counters) -> String {
 
 /// One run of each scene.
 fn runs() -> Vec<(String, Counters)> {
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("examples/scenes");
     let mut names: Vec<_> = std::fs::read_dir(&examples).unwrap().map(|entry| entry.unwrap().path()).collect();
     names.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     names.sort();

@@ -150,7 +150,7 @@ fn they_tell_what_comes_next_under_every_law() {
 
 #[test]
 fn floors_that_are_held_together_share_their_derivatives() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/leaning.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/reference/scenes/leaning.toml");
     let (scene, record) = scene::load(&path).unwrap();
     let mut run = Run::new(&scene, record.as_ref());
     let (first, second, closed) = errors(&mut run, 4.0, 2e-6);
@@ -161,7 +161,7 @@ fn floors_that_are_held_together_share_their_derivatives() {
 /// Storeys that yield and lean, in contact: gravity's energy is one of what is differentiated.
 #[test]
 fn storeys_that_lean_say_what_their_weights_do() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/p_delta.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/reference/scenes/p_delta.toml");
     let (mut scene, record) = scene::load(&path).unwrap();
     scene.energy = true;
     let mut run = Run::new(&scene, record.as_ref());

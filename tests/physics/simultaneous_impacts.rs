@@ -79,7 +79,8 @@ fn twenty_storeys_lean_on_thirty() {
         let mut scene = scene(&toml);
         scene.ground.record = Some("el_centro.csv".into());
         let (_, record) =
-            scene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/feup.toml")).unwrap();
+            scene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("examples/scenes/feup.toml"))
+                .unwrap();
         let mut run = Run::new(&scene, record.as_ref());
         let mut lost = 0.0;
         for k in 1..=2000 {

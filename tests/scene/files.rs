@@ -26,7 +26,7 @@ fn said(error: SceneError) -> Vec<String> {
 
 #[test]
 fn the_example_loads_with_its_record() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/feup.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("examples/scenes/feup.toml");
     let (scene, record) = scene::load(&path).unwrap();
     let record = record.unwrap();
     assert_eq!((scene.buildings[0].mass.len(), scene.buildings[1].mass.len(), scene.contacts.len()), (2, 3, 2));

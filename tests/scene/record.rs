@@ -189,7 +189,7 @@ fn at2_that_is_refused() {
 
 #[test]
 fn the_real_record_of_the_project() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/records/el_centro_1940_ns.csv");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/records/el_centro_1940_ns.csv");
     let record = parsed(path, std::fs::read(path).unwrap());
     assert_eq!(record.times.len(), 1560);
     assert_eq!((record.times[102], record.accelerations[102], record.peak()), (2.04, -3.12656, 3.12656));

@@ -12,6 +12,6 @@ pub fn library_path() -> PathBuf {
 }
 
 fn compiled_library() -> PathBuf {
-    let compiled = fmu_start::compile(Path::new(env!("CARGO_MANIFEST_DIR")), true, |_| {}).unwrap();
+    let compiled = fmu_start::compile(Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap(), true, |_| {}).unwrap();
     compiled.library().unwrap().to_path_buf()
 }

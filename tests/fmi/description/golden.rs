@@ -51,7 +51,7 @@ fn goldens() -> Vec<(PathBuf, FmiVersion, PathBuf)> {
 }
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
 fn scenes() -> Vec<PathBuf> {

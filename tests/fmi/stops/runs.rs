@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 pub fn all_scenes() -> Vec<PathBuf> {
     let folders = ["examples/scenes", "tests/reference/scenes", "ci/scenes"];
     let files = folders.iter().flat_map(|folder| {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join(folder);
         folder.read_dir().unwrap().map(|entry| entry.unwrap().path())
     });
     let mut scenes: Vec<PathBuf> =

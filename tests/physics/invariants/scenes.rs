@@ -111,7 +111,8 @@ fn with_account(text: &str) -> Scene {
 
 /// Of the reference solutions.
 fn of_file(name: &str, seconds: f64) -> Case {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/reference/scenes/{name}.toml"));
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join(format!("tests/reference/scenes/{name}.toml"));
     let (mut scene, record) = scene::load(&path).unwrap();
     scene.energy = true;
     Case::new(scene, record, seconds)

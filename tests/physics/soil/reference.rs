@@ -11,12 +11,12 @@ use std::path::Path;
 const ALLOWED: f64 = 4e-14;
 
 fn file(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/physics/soil/reference").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/physics/soil/reference").join(name);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 fn f1() -> (Scene, Record) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/physics/soil/reference/F1.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("tests/physics/soil/reference/F1.toml");
     let (scene, record) = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
     (scene, record.unwrap())
 }

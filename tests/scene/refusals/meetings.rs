@@ -247,7 +247,7 @@ fn facing() {
 /// A table has the levels elsewhere; what meets is told without them.
 #[test]
 fn what_meets_in_a_row_is_told_by_floors() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("examples/scenes");
     let read = |name: &str| Scene::from_toml(&std::fs::read_to_string(root.join(name)).unwrap()).unwrap();
     let told = |scene: &Scene| scene.contacts.iter().map(|pair| pair.meeting_by_floors(scene)).collect::<Vec<_>>();
     let (bridge, clinic, feup) = (read("bridge.toml"), read("clinic.toml"), read("feup.toml"));

@@ -21,7 +21,7 @@ const ISOLATED: &str = include_str!("../../problems/isolated_beside_a_stiff_mass
 const FILIATRAULT: &str = include_str!("../../../examples/paper/scenes/filiatrault.toml");
 
 fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 fn el_centro() -> Record {
