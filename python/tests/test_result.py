@@ -135,6 +135,8 @@ def test_a_long_row_has_a_line_for_each_building():
         largest = [max(peaks[at : at + 2]) for at in (0, 2, 4)]
         assert [float(number) for number in line[1:5]] == pytest.approx([2, *largest], rel=1e-4)
     (contacts,) = (table[2:] for table in tables if table[0].split()[:2] == ["hardest", "contacts"])
-    told = {int(line.split(":")[0]) for line in contacts}
+    named = [re.match(r"  contact (\d+): between b(\d+) floor ([12]) and b(\d+) floor ([12]) ", line) for line in contacts]
+    told = {int(match[1]) for match in named}
+    assert all(int(match[2]) + 1 == int(match[4]) and match[3] == match[5] for match in named)
     forces = sorted((result[f"contact[{p}].peak_force"][-1] for p in range(1, 25)), reverse=True)
     assert len(told) == 20 and min(result[f"contact[{p}].peak_force"][-1] for p in told) == forces[19]
