@@ -6,3 +6,4 @@ pub(super) mod pair;
 pub(super) mod penetration;
 pub(super) mod rigid;
 pub(super) mod row;
+pub(super) mod touching;

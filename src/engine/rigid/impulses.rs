@@ -15,7 +15,7 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, ContactPhase, Episode};
 use crate::engine::base::element::Sense;
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::rigid::rounding::Rounding;
+use crate::engine::pairs::touching::Rounding;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;

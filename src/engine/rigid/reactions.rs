@@ -3,7 +3,7 @@
 
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::rigid::rounding::Rounding;
+use crate::engine::pairs::touching::Rounding;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;

@@ -1,8 +1,8 @@
 //! What of the motion of a rigid pair is rounding.
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::Contact;
 use crate::engine::excitation::inputs::Inputs;
+use crate::engine::pairs::touching::Rounding;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
@@ -14,27 +14,6 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// A rigid pair is tracked by its own increments while it is at most this many times the rounding of its penetration apart.
 const CLOSE: f64 = 1e6;
-
-/// Floors that have moved together since they touched are at most this many times that rounding apart: as many as of their
-/// velocities.
-const TOGETHER: f64 = 32.0;
-
-/// What of a relative motion is rounding.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Rounding {
-    /// Of the penetration, m.
-    pub distance: f64,
-    /// Of its rate: an approach velocity that is no larger is none, m/s.
-    pub rate: f64,
-}
-
-impl Rounding {
-    /// Whether the floors of a contact, whose rate is 0 where it is rounding, touch.
-    pub(super) fn touches(&self, contact: &Contact) -> bool {
-        let apart = if contact.rate == 0.0 { TOGETHER * self.distance } else { self.distance };
-        contact.is_held() || contact.at_surface || contact.penetration >= -apart
-    }
-}
 
 impl System {
     /// Works out in `work.rounding` what is rounding of the motion of each rigid pair, in their order; the base has modes.

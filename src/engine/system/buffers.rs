@@ -1,7 +1,7 @@
 //! Scratch vectors that all kinds of steps share; their content means nothing between calls, but for the load of the
 //! step that is being planned.
 
-use crate::engine::rigid::rounding::Rounding;
+use crate::engine::pairs::touching::Rounding;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
 use crate::numerics::powers::Powers;
