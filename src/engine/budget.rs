@@ -19,6 +19,11 @@ pub(super) fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f6
     work / (0.05 * step_work)
 }
 
+/// The work of impacts of rigid floors, in flights. At one instant there may be thousands without a step between them.
+pub(super) fn work_of_impacts(impacts: u64) -> u64 {
+    20 * impacts
+}
+
 /// The work of one communication step so far.
 pub(super) struct Progress {
     /// Time at which the communication step began, s.

@@ -4,7 +4,7 @@
 use crate::contact::LawKey;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights};
+use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights, work_of_impacts};
 use crate::engine::error::{EngineError, GivenUp};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
@@ -73,7 +73,8 @@ impl Model {
 
     /// Refuses to go on beyond the limit on work, or with numbers that are not finite.
     pub(in crate::engine) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
-        if state.counters.steps().work() > progress.most {
+        let impacts = state.base.impacts - progress.impacts_before;
+        if state.counters.steps().work() + work_of_impacts(impacts) > progress.most {
             return Err(EngineError::TooMuchWork(self.give_up(state, progress)));
         }
         if progress.stalled > MOST_STEPS_AT_ONCE {

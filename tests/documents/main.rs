@@ -498,3 +498,18 @@ fn the_list_of_tests_names_every_file_and_no_other() {
         );
     }
 }
+
+#[test]
+fn every_test_program_is_in_the_manifest() {
+    let manifest = read("tests/Cargo.toml");
+    let entries = fs::read_dir(root().join("tests")).unwrap().map(|entry| entry.unwrap().path());
+    let programs = entries.filter_map(|path| {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        (name.ends_with(".rs"))
+            .then_some(name.clone())
+            .or(path.join("main.rs").exists().then(|| format!("{name}/main.rs")))
+    });
+    for program in programs {
+        assert!(manifest.contains(&format!("path = \"{program}\"")), "tests/Cargo.toml has no {program}");
+    }
+}

@@ -64,11 +64,24 @@ impl System {
                 break;
             }
             work.rigid.push(&self.rigid.matrix);
+            if work.rigid.found.iter().all(|&impulse| impulse == 0.0) {
+                self.end_approach(base, work);
+                break;
+            }
             self.push_apart(&work.rigid, &mut base.v);
             self.book_round(base, returns, work, on_episode);
         }
         self.update_soft_rates(base);
         self.turn_storeys(base);
+    }
+
+    /// Ends the approach of pairs against which there is no impulse: those that depend on pairs that stay, as the last one of a row
+    /// without room, approach by rounding alone.
+    fn end_approach(&self, base: &mut Base, work: &Buffers) {
+        for &k in &work.rigid.pairs {
+            let contact = &mut base.contacts[self.rigid.pairs[k]];
+            contact.rate = contact.rate.min(0.0);
+        }
     }
 
     /// Lists in `work.rigid` the pairs that touch and approach, or stay: with restitution, or if not, also those that part.

@@ -146,8 +146,8 @@ fn rebounds_at_a_wall_without_a_gap_end() {
 #[test]
 fn a_row_without_room_stands() {
     let shaking: Vec<f64> = (0..22).map(|k| 3.0 * (0.9 * f64::from(k)).sin()).collect();
-    for (inside, outside) in [(0.0, 0.4), (0.5, 0.9)] {
-        let row = [(3.1e5, 5.8, 0.2), (6.2e5, 4.0, -0.5), (1.6e5, 4.6, 0.0)];
+    for (inside, outside, last) in [(0.0, 0.4, 0.0), (0.5, 0.9, 0.0), (0.5, 0.9, 0.1)] {
+        let row = [(3.1e5, 5.8, 0.2), (6.2e5, 4.0, -0.5), (1.6e5, 4.6, last)];
         let row = row.map(|(mass, omega, speed)| Mass { mass, omega, speed });
         let walls = [(1, "left"), (3, "right")].map(|(building, side)| wall(building, side, &rigid(outside)));
         let more = format!("{}[ground]\nrecord = \"record.csv\"\n", walls.concat());
