@@ -172,9 +172,9 @@ pub(super) fn was_given(units: Units, odd: Units, si: &str) -> String {
 
 /// The number in the middle.
 pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied()
+    let mut values: Vec<f64> = values.collect();
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// The factor to the nearest of some numbers that all lie on one side, else 1.

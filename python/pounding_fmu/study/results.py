@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import importlib
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,7 +10,7 @@ from typing import IO, Any
 
 from . import table
 from .cases import FACTOR, Case, Row
-from .table import CASE, Kind, key, text
+from .table import CASE, Key, Kind, Writer, key, order
 
 TEMPORARY = ".new"
 
@@ -46,20 +45,21 @@ class Results:
         return table.parse(self.path, content[:whole]) if whole else (storeys, [])
 
     @property
-    def rows(self) -> dict[tuple[str, ...], Row]:
+    def rows(self) -> dict[Key, Row]:
         """All rows by case, read anew; of a case that was run again, the last."""
         _, rows = table.parse(self.path, self.path.read_bytes())
         return {key(row): row for row in rows}
 
     def add(self, rows: Iterable[Row]) -> None:
         """Writes rows and waits until the disk has them."""
-        lines = csv.writer(self.file, lineterminator="\n")
-        for known in rows:
-            row = {name: known.get(name) for name in self.columns}
-            self.failed[key(row)] = bool(row["error"])
-            lines.writerow(map(text, row.values()))
+        Writer(self.file, self.columns).rows(map(self.noted, rows))
         self.file.flush()
         os.fsync(self.file.fileno())
+
+    def noted(self, row: Row) -> Row:
+        """A row whose case has one from now on."""
+        self.failed[key(row)] = bool(row["error"])
+        return row
 
     def missing(self, cases: Iterable[Case]) -> list[Case]:
         """Cases without a result; those that failed are tried again."""
@@ -72,7 +72,8 @@ class Results:
         table.add_ratios(list(rows.values()))
         keys = [key(columns_of(case)) for case in cases]
         first = {case: rows[case] for case in keys if case in rows}
-        ordered = first | dict(sorted(rows.items()))
+        others = sorted(rows.keys() - first.keys(), key=order)
+        ordered = first | {case: rows[case] for case in others}
         self.write(ordered.values())
         write_parquet(self.parquet, self.columns, list(ordered.values()))
         return list(first.values())
@@ -82,9 +83,9 @@ class Results:
         new = self.path.with_suffix(TEMPORARY)
         file = new.open("w", encoding="utf-8", newline="")
         lock(file, self.path)
-        lines = csv.writer(file, lineterminator="\n")
-        lines.writerow(self.columns)
-        lines.writerows([text(row.get(name)) for name in self.columns] for row in rows)
+        writer = Writer(file, self.columns)
+        writer.names_of_columns()
+        writer.rows(rows)
         file.flush()
         os.fsync(file.fileno())
         os.replace(new, self.path)
@@ -119,8 +120,21 @@ def write_parquet(path: Path, columns: Mapping[str, Kind], rows: Sequence[Row]) 
         parquet: Any = importlib.import_module("pyarrow.parquet")
     except ImportError:
         return
-    kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64()}
-    arrays = {name: pyarrow.array([row.get(name) for row in rows], kinds[kind]) for name, kind in columns.items()}
+    arrays = {name: arrow_array(pyarrow, kind, [row.get(name) for row in rows]) for name, kind in columns.items()}
     new = path.with_suffix(TEMPORARY)
     parquet.write_table(pyarrow.table(arrays), new)
     os.replace(new, path)
+
+
+def arrow_array(pyarrow: Any, kind: Kind, values: Sequence[Any]) -> Any:
+    """A column, made of its bytes: `pyarrow.array` imports pandas, which costs more than all of the table."""
+    import numpy as np
+
+    known = np.packbits([value is not None for value in values], bitorder="little")
+    if kind is str:
+        texts = [(value or "").encode() for value in values]
+        parts = [known, np.cumsum([0, *map(len, texts)], dtype=np.int32), b"".join(texts)]
+    else:
+        parts = [known, np.array([0 if value is None else value for value in values], np.int64 if kind is int else np.float64)]
+    of = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64()}[kind]
+    return pyarrow.Array.from_buffers(of, len(values), [pyarrow.py_buffer(part) for part in parts])

@@ -13,7 +13,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from .cases import (
     ANY_FOUNDATION, CONTACT, FACTOR, FOUNDATION, HARDEST, LINK, NEVER_CLOSES, OF_EACH_CONTACT, OF_FOUNDATIONS, OF_LINKS,
@@ -21,6 +21,7 @@ from .cases import (
 )  # fmt: skip
 
 Kind = type  # of a column: str, int or float
+Key = tuple[Any, ...]
 
 CASE: dict[str, Kind] = {
     "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float,
@@ -106,15 +107,25 @@ def text(value: object) -> str:
     return repr(value)
 
 
-def value(kind: Kind, cell: str) -> Any:
-    if kind is str:
-        return cell.removeprefix("'")
-    if not cell:
-        return None
-    number = kind(cell)
-    if not math.isfinite(number):
-        raise ValueError
-    return number
+class Writer:
+    """Writes rows of these columns. Numbers have their shortest texts, as `text` has them, by the csv module's own doing."""
+
+    def __init__(self, file: IO[str], known: Mapping[str, Kind]) -> None:
+        self.lines = csv.writer(file, lineterminator="\n")
+        self.names = list(known)
+        self.texts = [place for place, kind in enumerate(known.values()) if kind is str]
+
+    def names_of_columns(self) -> None:
+        self.lines.writerow(self.names)
+
+    def rows(self, rows: Iterable[Mapping[str, Any]]) -> None:
+        self.lines.writerows(map(self.cells, rows))
+
+    def cells(self, row: Mapping[str, Any]) -> list[Any]:
+        cells = [row.get(name) for name in self.names]
+        for place in self.texts:
+            cells[place] = text(cells[place])
+        return cells
 
 
 def parse(path: Path, content: bytes) -> tuple[dict[str, int], list[Row]]:
@@ -124,11 +135,12 @@ def parse(path: Path, content: bytes) -> tuple[dict[str, int], list[Row]]:
     known = columns(storeys_of(names))
     if names != list(known):
         raise ValueError(f"{path}, line 1: no table of this version's studies: move it away, or name another folder")
+    reader = Reader(known)
     rows: list[Row] = []
     problems: list[str] = []
     try:
         for cells in lines:
-            row, wrong = row_of(known, cells)
+            row, wrong = reader.row(cells)
             problems += [f"{path}, line {lines.line_num}: {problem}" for problem in wrong]
             rows.append(row)
     except csv.Error as error:
@@ -149,27 +161,45 @@ def decoded(path: Path, content: bytes) -> str:
     return "\n".join(lines)
 
 
-def row_of(known: Mapping[str, Kind], cells: Sequence[str]) -> tuple[Row, list[str]]:
-    """The row by column names, and what is wrong with it."""
-    if len(cells) != len(known):
-        return {}, [f"expected {len(known)} cells, found {len(cells) if any(cells) else 'a blank line'}"]
-    row: Row = {}
-    problems: list[str] = []
-    for (name, kind), cell in zip(known.items(), cells):
-        try:
-            row[name] = value(kind, cell)
-        except ValueError:
-            problems.append(f"{name} = {cell!r}: expected {'a whole number' if kind is int else 'a number'}")
-    # A gap, or a factor on those of the scene.
-    needed = [name for name in CASE if name != "gap_m" or row.get(FACTOR) is None]
-    problems += [f"{name}: expected a value" for name in needed if row.get(name, "") is None]
-    if not row["error"]:
-        # A building that is not there has nothing at all.
-        sides = sides_of(row)
-        found = [side for side in sides if any(row.get(name) is not None for name in of_sides([side], [*INTENSITY, *RESULT, *SOME]))]
-        needed = list(always(found or sides))
-        problems += [f"{name}: expected a value, or a reason in error" for name in needed if row.get(name, 0) is None]
-    return row, problems
+class Reader:
+    """Reads rows of a table with these columns."""
+
+    def __init__(self, known: Mapping[str, Kind]) -> None:
+        self.known = known
+        self.sides = sides_of(dict.fromkeys(known))
+        self.of_side = {side: [name for name in of_sides([side], [*INTENSITY, *RESULT, *SOME]) if name in known] for side in self.sides}
+
+    def row(self, cells: Sequence[str]) -> tuple[Row, list[str]]:
+        """The row by column names, and what is wrong with it."""
+        known = self.known
+        if len(cells) != len(known):
+            return {}, [f"expected {len(known)} cells, found {len(cells) if any(cells) else 'a blank line'}"]
+        row: Row = {}
+        problems: list[str] = []
+        for (name, kind), cell in zip(known.items(), cells):
+            if kind is str:
+                row[name] = cell.removeprefix("'")
+            elif not cell:
+                row[name] = None
+            else:
+                try:
+                    row[name] = number = kind(cell)
+                    is_number = math.isfinite(number)
+                except (ValueError, OverflowError):
+                    is_number = False
+                if not is_number:
+                    problems.append(f"{name} = {cell!r}: expected {'a whole number' if kind is int else 'a number'}")
+        # A gap, or a factor on those of the scene.
+        needed = [name for name in CASE if name != "gap_m" or row.get(FACTOR) is None]
+        problems += [f"{name}: expected a value" for name in needed if row.get(name, "") is None]
+        if not row["error"]:
+            needed = list(always([side for side in self.sides if self.is_there(side, row)] or self.sides))
+            problems += [f"{name}: expected a value, or a reason in error" for name in needed if row.get(name, 0) is None]
+        return row, problems
+
+    def is_there(self, side: str, row: Row) -> bool:
+        """A building that is not there has nothing at all."""
+        return any(row.get(name) is not None for name in self.of_side[side])
 
 
 def stop_at(problems: Sequence[str]) -> None:
@@ -180,22 +210,34 @@ def stop_at(problems: Sequence[str]) -> None:
     raise ValueError("\n".join([*said, "mend or delete these lines; a case without a line is run again"]))
 
 
-def key(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """What names a case in the table: its columns, numbers by their shortest text."""
-    return (*(text(row[name]) for name in CASE), text(row.get(FACTOR)))
+def key(row: Mapping[str, Any]) -> Key:
+    """What names a case in the table: its columns."""
+    return (*(row[name] for name in CASE), row.get(FACTOR))
+
+
+def order(of: Key) -> tuple[str, ...]:
+    """By which rows are sorted that no case of the study has: by their texts."""
+    return tuple(map(text, of))
 
 
 def add_ratios(rows: Sequence[Row]) -> None:
-    """Writes into each row what the largest storey ratios to its run without contact are, where that is there and neither has
-    collapsed."""
-    free = {key(row): row for row in rows if not collapsed(row)}
+    """Writes into each row of a table what the largest storey ratios to its run without contact are, where that is there and
+    neither has collapsed."""
+    known = dict.fromkeys(rows[0]) if rows else {}
+    of_storeys = {
+        f"{side}_{ratio}": [name for name in known if name.startswith(f"{side}_{what}[")]
+        for what, ratio in RATIO_OF.items()
+        for side in sides_of(known)
+    }
+    standing = [row for row in rows if not collapsed(row)]
+    free = {key(row): row for row in standing}
     for row in rows:
-        alone = None if collapsed(row) else free.get(key({**row, "gap_m": NEVER_CLOSES, FACTOR: None}))
-        for what, ratio in RATIO_OF.items():
-            for side in sides_of(row):
-                row[f"{side}_{ratio}"] = largest_ratio(row, alone, f"{side}_{what}[") if alone else None
+        row |= dict.fromkeys(of_storeys)
+    for row in standing:
+        if alone := free.get(key({**row, "gap_m": NEVER_CLOSES, FACTOR: None})):
+            row |= {ratio: largest_ratio(row, alone, names) for ratio, names in of_storeys.items()}
 
 
-def largest_ratio(row: Row, alone: Row, prefix: str) -> float | None:
-    pairs = [(row[name], alone.get(name)) for name in row if name.startswith(prefix)]
+def largest_ratio(row: Row, alone: Row, names: Iterable[str]) -> float | None:
+    pairs = [(row[name], alone.get(name)) for name in names]
     return max((mine / other for mine, other in pairs if mine is not None and other), default=None)
