@@ -1,5 +1,7 @@
 """Solvers that are programs of their own: the engine, and the peers written in C."""
 
+import os
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -40,8 +42,9 @@ class Solver:
 
 
 def build_engine(environment=None, program="run_time"):
-    """The program of benchmarks/run_time.rs, or another one of that folder."""
-    command = ["cargo", "build", "--release", "--quiet", "--example", program, "--message-format", "json"]
+    """The program of benchmarks/run_time.rs, or another one of that folder; BENCHMARK_BUILD says how it is compiled."""
+    how = shlex.split(os.environ.get("BENCHMARK_BUILD", "--release"))
+    command = ["cargo", "build", *how, "--quiet", "--example", program, "--message-format", "json"]
     done = subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.PIPE, text=True)
     lines = done.stdout.splitlines()
     programs = [line.split('"executable":"')[1].split('"')[0] for line in lines if '"executable":"' in line]

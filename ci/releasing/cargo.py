@@ -1,5 +1,6 @@
 """The libraries, compiled for any platform."""
 
+import functools
 import json
 import os
 import shutil
@@ -62,3 +63,11 @@ def compile_library(platform, toolchain, libraries):
 def flag_arguments(flags):
     """Cargo's option for flags of rustc; a JSON array of strings is a TOML array of strings."""
     return ["--config", "build.rustflags=" + json.dumps(flags)]
+
+
+@functools.cache
+def fmu_command():
+    """The program behind `cargo fmu`, compiled: many FMUs are made without asking cargo each time whether it is up to date."""
+    run("cargo", "fmu", "--help", aloud=True)
+    about = json.loads(run("cargo", "metadata", "--format-version", "1", "--no-deps"))
+    return Path(about["target_directory"]) / "quick/cargo-fmu"

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from releasing.cargo import fmu_command
 from releasing.commands import Failure, run
 from releasing.places import ROOT, WORK
 from releasing.platforms import LINUX
@@ -52,7 +53,7 @@ def prepare(libraries):
 def unpack(scene, libraries, folder, *options):
     """Makes an FMU, of which the description and the resources stay."""
     fmu = FOLDER / "scene.fmu"
-    run("cargo", "fmu", scene, "--libraries", libraries, "--platform", LINUX.name, *options, "-o", fmu)
+    run(fmu_command(), scene, "--libraries", libraries, "--platform", LINUX.name, *options, "-o", fmu)
     with zipfile.ZipFile(fmu) as archive:
         wanted = [name for name in archive.namelist() if name.startswith(("modelDescription.xml", "resources/"))]
         archive.extractall(folder, wanted)

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from releasing import archives, cases, comparison, debian, gates, hosts, needs, options, progress, reading, remapping
 from releasing import page, standard_library, unit_tests
-from releasing.cargo import VARIABLES, compile_library
+from releasing.cargo import VARIABLES, compile_library, fmu_command
 from releasing.commands import Failure, run, stop_at
 from releasing.places import CI, FILES, ROOT, WORK
 from releasing.platforms import CROSS, LINUX, WINDOWS
@@ -154,8 +154,8 @@ def make_fmus():
     (DRAFT / "fmus").mkdir()
     for scene in sorted((ROOT / "examples/scenes").glob("*.toml")):
         name = tomllib.loads(scene.read_text())["name"]
-        run("cargo", "fmu", scene, "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmu")
-        run("cargo", "fmu", scene, "--fmi", "3", "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmi3.fmu")
+        run(fmu_command(), scene, "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmu")
+        run(fmu_command(), scene, "--fmi", "3", "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmi3.fmu")
 
 
 def check_wheel():

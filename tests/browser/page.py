@@ -3,27 +3,36 @@
     "$(ci/environment tests/browser)" tests/browser/page.py [NAME ...]
 
 Needs target/page/template.html, which ci/page makes, and a Chromium as report.py does. A name runs what has it in its name
-alone. Pictures go to target/browser; page.png among them is the picture of docs/page.md. page_bits.py compares what the engine
-in the page computes.
+alone. As many browsers as there are processors look at once. Pictures go to target/browser; page.png among them is the picture of
+docs/page.md. page_bits.py compares what the engine in the page computes.
 """
 
+import os
 import sys
 import time
+from multiprocessing import Pool
 
 from browser import started
 from pages import everyone, hostile, results, rows, saved, scene, visit
 
+LOOKS = {look.__name__: look for module in (scene, results, rows, saved, everyone, hostile) for look in module.LOOKS}
+
 
 def main():
     visit.make_page()
-    looks = [look for module in (scene, results, rows, saved, everyone, hostile) for look in module.LOOKS]
-    wanted = [look for look in looks if not sys.argv[1:] or any(name in look.__name__ for name in sys.argv[1:])]
+    wanted = [name for name in LOOKS if not sys.argv[1:] or any(part in name for part in sys.argv[1:])]
+    browsers = min(len(wanted), os.cpu_count())
+    with Pool(browsers) as pool:
+        pool.map(look_at, [wanted[first::browsers] for first in range(browsers)], chunksize=1)
+
+
+def look_at(names):
+    """These looks, one after the other, in a browser of their own."""
     with started(viewport=visit.WIDE) as context:
-        browser = context.browser
-        for look in wanted:
+        for name in names:
             begun = time.monotonic()
-            look(browser)
-            print(f"{look.__name__.replace('_', ' ')}: well, {time.monotonic() - begun:.1f} s", flush=True)
+            LOOKS[name](context.browser)
+            print(f"{name.replace('_', ' ')}: well, {time.monotonic() - begun:.1f} s", flush=True)
 
 
 if __name__ == "__main__":
