@@ -24,7 +24,7 @@ TEMPLATE = WORK / "page.html"
 # The library that `cargo fmu` compiles on this machine: another build of the same platform.
 SECOND = replace(LINUX, name="linux64-cargo-fmu", glibc=None)
 # The module of the wheel in a rehearsal: the same steps, flags and gates, without the minutes of the optimiser.
-QUICKLY = {"LTO": "off", "CODEGEN_UNITS": "16", "OPT_LEVEL": "1"}
+QUICKLY = {"LTO": "off", "CODEGEN_UNITS": "16", "OPT_LEVEL": "0"}
 
 
 def main():
