@@ -216,9 +216,9 @@ def report(with_all, found, uses):
     total = {group: sum(with_all[use.name]["instructions"] for use in uses if use.group == group) / 1e6 for group in groups}
     lines += [
         "",
-        "The scenes, all with peaks as the default has them: the eight examples; S1 to S4 ([README.md](README.md)) under",
+        "The scenes, all with peaks as the default has them: those of `examples/scenes`; S1 to S4 ([README.md](README.md)) under",
         "`linear`, `kelvin_voigt`, `hertz`, `jankowski` and `hertz_damped`; two towers of 32 storeys that meet at their tops;",
-        "100 gaps from 1 to 100 mm of the first example, each one step to its end; five of the scenes with all peaks read at each",
+        f"100 gaps from 1 to 100 mm of `{uses[0].name}`, each one step to its end; five of the scenes with all peaks read at each",
         "step, four with one peak read, as by who watches a drift. 2000 steps of 10 ms, at which the top displacements and contact",
         "forces are read, and all Real outputs at the end.",
         "",
