@@ -1,6 +1,7 @@
 """The table of a study: what is read is what was written, and what is damaged is told."""
 
 import csv
+import subprocess
 import sys
 import tracemalloc
 
@@ -170,3 +171,17 @@ def test_parquet_is_the_same_table(tmp_path):
     # A study that goes on has another table than the last one that ended.
     results_of(tmp_path)
     assert not (tmp_path / "results.parquet").exists()
+
+
+def test_the_parquet_table_needs_no_pandas():
+    """Which takes longer to begin than the table of a study takes to write."""
+    program = (
+        "import pathlib, sys, tempfile, pyarrow.parquet\n"
+        "from pounding_fmu.study import results\n"
+        "path = pathlib.Path(tempfile.mkdtemp()) / 'table.parquet'\n"
+        "rows = [{'scene': 'ü', 'impacts': 3, 'pga_m_s2': 0.1}, {'scene': '', 'impacts': None, 'pga_m_s2': None}] * 9\n"
+        "results.write_parquet(path, {'scene': str, 'impacts': int, 'pga_m_s2': float}, rows)\n"
+        "assert 'pandas' not in sys.modules\n"
+        "assert pyarrow.parquet.read_table(path).to_pylist() == rows\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
