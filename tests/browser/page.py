@@ -21,7 +21,7 @@ LOOKS = {look.__name__: look for module in (scene, results, rows, saved, everyon
 def main():
     visit.make_page()
     wanted = [name for name in LOOKS if not sys.argv[1:] or any(part in name for part in sys.argv[1:])]
-    browsers = min(len(wanted), os.cpu_count())
+    browsers = max(1, min(len(wanted), os.cpu_count()))
     with Pool(browsers) as pool:
         pool.map(look_at, [wanted[first::browsers] for first in range(browsers)], chunksize=1)
 
