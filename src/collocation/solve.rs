@@ -67,19 +67,40 @@ pub(crate) struct SolvedWindow {
 
 impl SolvedWindow {
     /// Solves an equation over a window until penetrations are right within `tolerance`, m; whether a solution has been
-    /// found.
+    /// found. It begins with the one that it holds, if that `is_known` and of a longer window.
     pub(crate) fn solve(
         &mut self,
         equation: &Equation,
         work: &mut WindowWorkspace,
-        frame: Frame,
+        (frame, is_known): (Frame, bool),
         tolerance: f64,
     ) -> bool {
+        let is_known = is_known && frame.length <= self.length && self.map == self.map.without_end();
+        iterate_by_rule(self, equation, work, (frame, is_known), tolerance)
+    }
+
+    /// Makes room for a window, whose rows are 0 beyond the nodes of its rule.
+    fn frame(&mut self, pairs: usize, frame: Frame) {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
-        let (all, count) = (equation.pairs, frame.rule.count());
-        let rows = self.depth[..all].iter_mut().chain(&mut self.rate[..all]).chain(&mut self.force[..all]);
-        rows.for_each(|row| row[count..].fill(0.0));
-        iterate_by_rule(self, equation, work, frame.ending, tolerance)
+        let rows = self.depth[..pairs].iter_mut().chain(&mut self.rate[..pairs]).chain(&mut self.force[..pairs]);
+        rows.for_each(|row| row[frame.rule.count()..].fill(0.0));
+    }
+
+    /// Takes the solution over a longer window to the nodes of another one.
+    #[inline(always)]
+    fn shorten<const N: usize>(&mut self, equation: &Equation, tables: &Tables, frame: Frame) {
+        let (share, nodes) = (frame.length / self.length, nodes(self.rule));
+        let x: [f64; N] = std::array::from_fn(|i| self.map.inverse(share * tables.theta[i]));
+        for p in 0..equation.closed {
+            let law = equation.forces[p];
+            let depth = nodes.interpolant(&self.depth[p]).at(&x);
+            self.depth[p][..N].copy_from_slice(&depth);
+            if law.is_damped() {
+                let rate = nodes.interpolant(&self.rate[p]).at(&x);
+                self.rate[p][..N].copy_from_slice(&rate);
+            }
+            forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
+        }
     }
 
     /// Takes the solution to another length of the window: the same motion at the times of the new nodes.
@@ -228,13 +249,13 @@ fn iterate_by_rule(
     solution: &mut SolvedWindow,
     equation: &Equation,
     work: &mut WindowWorkspace,
-    ending: Ending,
+    start: (Frame, bool),
     tolerance: f64,
 ) -> bool {
-    match solution.rule {
-        NodeCount::Eight => iterate::<{ NodeCount::Eight.count() }>(solution, equation, work, ending, tolerance),
-        NodeCount::Twelve => iterate::<{ NodeCount::Twelve.count() }>(solution, equation, work, ending, tolerance),
-        NodeCount::Sixteen => iterate::<{ NodeCount::Sixteen.count() }>(solution, equation, work, ending, tolerance),
+    match start.0.rule {
+        NodeCount::Eight => iterate::<{ NodeCount::Eight.count() }>(solution, equation, work, start, tolerance),
+        NodeCount::Twelve => iterate::<{ NodeCount::Twelve.count() }>(solution, equation, work, start, tolerance),
+        NodeCount::Sixteen => iterate::<{ NodeCount::Sixteen.count() }>(solution, equation, work, start, tolerance),
     }
 }
 
@@ -244,11 +265,17 @@ fn iterate<const N: usize>(
     solution: &mut SolvedWindow,
     equation: &Equation,
     work: &mut WindowWorkspace,
-    ending: Ending,
+    (frame, is_known): (Frame, bool),
     tolerance: f64,
 ) -> bool {
-    let tables = Tables::of(solution.map, solution.rule);
-    solution.guess::<N>(equation, tables);
+    let (tables, ending) = (Tables::of(frame.map, frame.rule), frame.ending);
+    if is_known {
+        solution.shorten::<N>(equation, tables, frame);
+    }
+    solution.frame(equation.pairs, frame);
+    if !is_known {
+        solution.guess::<N>(equation, tables);
+    }
     equation.assemble::<N>(tables, solution.length, work);
     equation.fly::<N>(tables, solution.length, work);
     let mut last_change = f64::INFINITY;

@@ -75,9 +75,11 @@ impl Windows {
         }
         self.watch(system, base, (window, free), trial.length);
         let tolerance = system.tolerance.step * base.velocity_scale;
+        let mut is_known = false;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
-            if !solution.solve(equation, room, trial.frame(), SWEEP_SHARE * tolerance * trial.length) {
+            is_known = solution.solve(equation, room, (trial.frame(), is_known), SWEEP_SHARE * tolerance * trial.length);
+            if !is_known {
                 // The expected event may come later than in this window, so one without an event is tried next.
                 trial = match trial.ending {
                     Ending::Given => trial.shorter(0.5),
