@@ -279,14 +279,11 @@ fn iterate<const N: usize>(
     equation.assemble::<N>(tables, solution.length, work);
     equation.fly::<N>(tables, solution.length, work);
     let mut last_change = f64::INFINITY;
-    for sweep in 1..=MOST_SWEEPS {
+    for _ in 0..MOST_SWEEPS {
         let change = solution.sweep::<N>(equation, tables, work);
         // Convergence gets faster: the next change is smaller than this one by at least the last ratio.
         let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
         last_change = change;
-        if sweep < 3 && left > tolerance {
-            continue;
-        }
         let mut missed = 0.0;
         if ending != Ending::Given {
             solution.close(equation, work, ending.pair());
