@@ -184,7 +184,7 @@ impl Windows {
             if let Some(least) = solution.rule.next() {
                 return Verdict::Another(Trial { least, ..trial });
             }
-            let share = libm::pow(allowed / error, 0.1);
+            let share = libm::pow(allowed / error, 0.2);
             return Verdict::Another(trial.shorter((0.9 * share).max(0.3)));
         }
         match self.is_certain(system, base, (window, free), work, trial.ending) {
