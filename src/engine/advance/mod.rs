@@ -148,6 +148,11 @@ impl Model {
         progress: &mut Progress,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
+        if state.step.planned.is_cleared {
+            // Of these there are no more than segments, which have been counted before.
+            self.take_cleared(state, end);
+            return self.check_motion(&state.base);
+        }
         progress.note(end > state.base.elapsed);
         self.take(state, end, on_episode);
         self.check_numbers(state)?;
@@ -182,6 +187,19 @@ impl Model {
         }
     }
 
+    /// Takes a flight for which bounds have cleared all pairs and elements: nothing but the motion changes, since no
+    /// contact is closed or at its surface, and no element yields.
+    fn take_cleared(&self, state: &mut State, end: f64) {
+        let State { base, step, inputs, counters, work, .. } = state;
+        self.system.add_work(&mut At { base, inputs, counters }, step, work.for_energy());
+        self.follow_and_raise(base, step, inputs, end, work);
+        std::mem::swap(&mut base.q, &mut step.planned.q);
+        std::mem::swap(&mut base.v, &mut step.planned.v);
+        base.elapsed = end;
+        base.leave_cleared_flight();
+        step.kind = StepKind::NotPlanned;
+    }
+
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
     ///
     /// The order must not change. The step is a function of the base that it was planned from: whatever integrates it,
@@ -203,12 +221,6 @@ impl Model {
         std::mem::swap(&mut base.v, &mut planned.v);
         // From here on `base.time()` is the end of the step.
         base.elapsed = end;
-        if planned.is_cleared {
-            // Nothing else has changed: no contact is closed or at its surface, and no element yields.
-            base.leave_cleared_flight();
-            step.kind = StepKind::NotPlanned;
-            return;
-        }
         // Plastic drifts move the position of rest, and with it `q` and the gaps at rest: before anything is measured
         // from them.
         self.move_elements(base, step);

@@ -78,7 +78,8 @@ impl Windows {
         let mut is_known = false;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
-            is_known = solution.solve(equation, room, (trial.frame(), is_known), SWEEP_SHARE * tolerance * trial.length);
+            is_known =
+                solution.solve(equation, room, (trial.frame(), is_known), SWEEP_SHARE * tolerance * trial.length);
             if !is_known {
                 // The expected event may come later than in this window, so one without an event is tried next.
                 trial = match trial.ending {
