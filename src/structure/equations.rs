@@ -280,6 +280,11 @@ impl Structure {
         self.floor_rows.at(lane, modal)
     }
 
+    /// The row over the modes of one lane of a vector of all floors.
+    pub fn row_of_floor(&self, lane: usize) -> Vec<f64> {
+        self.floor_rows.row(lane, self.lanes)
+    }
+
     /// Adds the modal vector of displacements or velocities of one building's floors: shape' M u.
     pub fn add_modal(&self, id: BuildingId, floors: &[f64], modal: &mut [f64]) {
         let (body, mass) = (self.body(id), self.floors.of_building(id, self.floors.mass()));

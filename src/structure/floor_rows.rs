@@ -18,6 +18,13 @@ impl FloorRows {
         FloorRows(rows)
     }
 
+    /// The row of a lane over all modes, so many.
+    pub(super) fn row(&self, lane: usize, modes: usize) -> Vec<f64> {
+        let ((first, row), mut all) = (&self.0[lane], vec![0.0; modes]);
+        all[*first..][..row.len()].copy_from_slice(row);
+        all
+    }
+
     /// The motion of one lane from a modal vector: as [`super::lane_matrix::LaneMatrix`] has it for many, to the last
     /// bit.
     #[inline]

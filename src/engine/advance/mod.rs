@@ -192,7 +192,7 @@ impl Model {
     fn take_cleared(&self, state: &mut State, end: f64) {
         let State { base, step, inputs, counters, work, .. } = state;
         self.system.add_work(&mut At { base, inputs, counters }, step, work.for_energy());
-        self.follow_and_raise(base, step, inputs, end, work);
+        self.raise_over_flight(base, step, inputs, work);
         std::mem::swap(&mut base.q, &mut step.planned.q);
         std::mem::swap(&mut base.v, &mut step.planned.v);
         base.elapsed = end;
@@ -335,18 +335,25 @@ impl Model {
         base.contacts = contacts;
     }
 
+    /// Logs the planned flight, or raises the peaks over it.
+    fn raise_over_flight(&self, base: &mut Base, step: &Step, inputs: &Inputs, work: &mut Workspace) {
+        let peaks = self.peaks();
+        match () {
+            _ if self.watched.rows.are_none() || step.planned.length == 0.0 => {}
+            _ if peaks.logs_flights() => peaks.log_flight(base, step, inputs, work.for_log()),
+            _ => peaks.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
+        }
+    }
+
     /// Moves the contacts through the step to its end, and logs it or raises the peaks over it.
     fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
         let (peaks, start) = (self.peaks(), base.time());
-        let is_watched = !self.watched.rows.are_none() && step.planned.length > 0.0;
-        let is_flight = step.kind == StepKind::Flight;
-        match is_flight && is_watched {
-            true if peaks.logs_flights() => peaks.log_flight(base, step, inputs, work.for_log()),
-            true => peaks.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
-            false => peaks.note_starts(&base.contacts, &mut work.for_peaks()),
+        if step.is_flight() {
+            return self.raise_over_flight(base, step, inputs, work);
         }
+        peaks.note_starts(&base.contacts, &mut work.for_peaks());
         step.follow(&self.system, &mut base.contacts, start);
-        if is_watched && !is_flight {
+        if !self.watched.rows.are_none() && step.planned.length > 0.0 {
             peaks.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
         }
     }

@@ -6,7 +6,8 @@ use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
 use crate::engine::output::known::Accelerations;
 use crate::engine::output::point::Point;
-use crate::structure::{BuildingId, Motion};
+use crate::engine::quantities::flight_row::FlightRow;
+use crate::structure::{BuildingId, Motion, MotionMut};
 
 impl Point {
     /// Number of rows of the modal matrix that have been multiplied since this point was made; 0 where the motion is
@@ -17,24 +18,56 @@ impl Point {
 }
 
 impl<'a> Instant<'a> {
-    /// The motion relative to the position of rest, in the coordinates of the point.
+    /// The motion relative to the position of rest, in the coordinates of the point; that of the modes where it oscillates.
     #[inline(always)]
     pub(super) fn motion(&self) -> Motion<'a> {
+        if self.point.oscillates { self.motion_of_modes() } else { self.moved() }
+    }
+
+    /// The same as the step has it.
+    #[inline(always)]
+    fn moved(&self) -> Motion<'a> {
         let Instant { state, point, .. } = *self;
         if point.is_at_base { state.base.motion() } else { Motion { q: &point.q, v: &point.v } }
+    }
+
+    #[inline(never)]
+    fn motion_of_modes(&self) -> Motion<'a> {
+        let floors = &self.point.floors;
+        let [q, v] = floors.of_modes.get_or_init(|| {
+            let [mut q, mut v] = floors.room_of_modes.take();
+            let oscillators = self.model.system.structure.oscillators();
+            oscillators.into_iter().for_each(|of| of.to_modes(self.moved(), MotionMut { q: &mut q, v: &mut v }));
+            [q, v]
+        });
+        Motion { q, v }
+    }
+
+    /// What `of` reads of a lane where oscillators move.
+    #[inline(never)]
+    fn of_oscillators(&self, lane: usize, of: fn(FlightRow<'a>, Motion<'a>) -> f64) -> f64 {
+        let Instant { model, point, .. } = *self;
+        point.floors.rows_read.set(point.floors.rows_read.get() + 1);
+        of(FlightRow::OfOscillators(&model.system.floors_in_flight[lane]), self.moved())
     }
 
     /// Displacement of a lane relative to the ground, m.
     #[inline]
     pub(super) fn displacement(&self, lane: usize) -> f64 {
-        let moved = self.at_lane(lane, self.motion().q);
+        let moved = match self.point.oscillates {
+            true => self.of_oscillators(lane, FlightRow::value),
+            false => self.at_lane(lane, self.moved().q),
+        };
         if self.point.elements.is_empty() { moved } else { moved + self.point.rest[lane] }
     }
 
     /// Velocity of a lane relative to the ground, m/s.
     #[inline]
     pub(super) fn velocity(&self, lane: usize) -> f64 {
-        self.at_lane(lane, self.motion().v)
+        match self.point.oscillates {
+            true => self.of_oscillators(lane, FlightRow::rate),
+            false => self.at_lane(lane, self.moved().v),
+        }
     }
 
     /// Absolute acceleration of a lane, m/s2.

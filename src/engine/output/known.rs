@@ -21,6 +21,10 @@ pub(crate) struct FloorMotions {
     pub accelerations: OnceCell<Accelerations>,
     /// Memory for the accelerations.
     pub room: RefCell<Accelerations>,
+    /// Displacements and velocities of the modes where oscillators move, once they have been worked out.
+    pub of_modes: OnceCell<[Vec<f64>; 2]>,
+    /// Memory for them.
+    pub room_of_modes: RefCell<[Vec<f64>; 2]>,
 }
 
 /// Accelerations in the coordinates of a point, m/s2.
@@ -38,6 +42,8 @@ impl FloorMotions {
         self.load = vec![0.0; lanes];
         self.accelerations.take();
         *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
+        self.of_modes.take();
+        *self.room_of_modes.get_mut() = [vec![0.0; lanes], vec![0.0; lanes]];
     }
 
     /// Begins a new observation, of which nothing is known.
@@ -47,6 +53,9 @@ impl FloorMotions {
         self.is_loaded = false;
         if let Some(accelerations) = self.accelerations.take() {
             *self.room.get_mut() = accelerations;
+        }
+        if let Some(of_modes) = self.of_modes.take() {
+            *self.room_of_modes.get_mut() = of_modes;
         }
     }
 

@@ -28,7 +28,7 @@ use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::{Motion, MotionMut};
+use crate::structure::MotionMut;
 use std::cell::Cell;
 
 impl Model {
@@ -47,7 +47,7 @@ impl Model {
             None => inputs.ground_acceleration.at(*time),
         };
         let (elapsed, is_flight) = (state.since_base(), step.is_flight());
-        point.is_at_base = elapsed == 0.0 && !base.oscillates;
+        (point.is_at_base, point.oscillates) = (elapsed == 0.0, base.oscillates);
         if !(point.is_at_base && is_flight && base.elements.is_empty()) {
             self.note_motion(state, elapsed, point);
         }
@@ -65,13 +65,6 @@ impl Model {
         if !point.is_at_base {
             let (q, v) = (&mut point.q, &mut point.v);
             step.evaluate(&self.system, (base, inputs), elapsed, &mut work, MotionMut { q, v });
-        }
-        if let (true, Some(oscillators)) = (base.oscillates, self.system.structure.oscillators()) {
-            let Point { q, v, oscillating, .. } = &mut *point;
-            let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
-            std::mem::swap(q, of_q);
-            std::mem::swap(v, of_v);
-            oscillators.to_modes(Motion { q: of_q, v: of_v }, MotionMut { q, v });
         }
         self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.
@@ -106,7 +99,6 @@ impl Model {
     fn make_room(&self, point: &mut Point) {
         let lanes = self.system.structure.lanes;
         point.model = self.identity;
-        point.oscillating = None;
         (point.q, point.v, point.rest) = (vec![0.0; lanes], vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
         point.elements = vec![ElementState::default(); self.system.elements.len()];

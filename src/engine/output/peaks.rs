@@ -98,7 +98,7 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let State { base, inputs, .. } = state;
-        let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
+        let (lanes, end) = (self.system.structure.lanes, Motion { q: &point.q, v: &point.v });
         let loads = [Load { ground: base.ground(), length: elapsed }];
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));

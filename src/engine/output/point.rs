@@ -1,11 +1,10 @@
 //! The solution at one time, by floors and contacts.
 
+use crate::engine::base::Coordinates;
 use crate::engine::base::element::ElementState;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
 use crate::engine::system::buffers::Buffers;
-use crate::structure::Motion;
 use std::cell::{Cell, RefCell};
 
 /// The solution at one time, by floors and contacts, each of which is worked out when first read.
@@ -21,14 +20,14 @@ pub struct Point {
     pub(in crate::engine) model: u64,
     /// The coordinates of the following vectors.
     pub(in crate::engine) coordinates: Coordinates,
+    /// These are coordinates of oscillators, not of modes.
+    pub(in crate::engine) oscillates: bool,
     /// The motion is that of the base; otherwise it is that of the following vectors.
     pub(in crate::engine) is_at_base: bool,
     /// Displacements relative to the position of rest.
     pub(in crate::engine) q: Vec<f64>,
     /// Velocities.
     pub(in crate::engine) v: Vec<f64>,
-    /// The same motion as that of oscillators, where these move at that time.
-    pub(in crate::engine) oscillating: Option<[Vec<f64>; 2]>,
     pub(in crate::engine) floors: FloorMotions,
     /// The storeys that can yield.
     pub(in crate::engine) elements: Vec<ElementState>,
@@ -42,16 +41,6 @@ pub struct Point {
     pub(in crate::engine) dashpots: RefCell<Vec<f64>>,
     pub(in crate::engine) work: RefCell<Option<Box<Buffers>>>,
     pub(in crate::engine) peaks: PeakCell,
-}
-
-impl Point {
-    /// The motion in the coordinates of the step's base.
-    pub(in crate::engine) fn motion_of_step(&self, base: &Base) -> Motion<'_> {
-        match &self.oscillating {
-            Some([q, v]) if base.oscillates => Motion { q, v },
-            _ => Motion { q: &self.q, v: &self.v },
-        }
-    }
 }
 
 /// Outputs, and the number of the observation to which they belong.

@@ -21,6 +21,7 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::pairs::row::WeightRow;
 use crate::engine::quantities::corrections::Correction;
+use crate::engine::quantities::flight_row::OscillatorRows;
 use crate::engine::system::tolerance::Tolerance;
 use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
@@ -59,6 +60,8 @@ pub struct System {
     pub tolerance: Tolerance,
     /// The coordinates in contact, but for rigid pairs, which need modal ones.
     pub contact_coordinates: Coordinates,
+    /// The displacement of each lane in flights, where oscillators move there.
+    pub floors_in_flight: Vec<OscillatorRows>,
     /// Lower bound on the approach velocity in laws that divide by it, m/s.
     pub least_approach: f64,
     /// Response to an impulse as a series in time; present where a law has a root and damping couples no modes.
@@ -119,6 +122,9 @@ impl System {
             is_pushed,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
             contact_coordinates: contact_coordinates(&structure),
+            floors_in_flight: (0..structure.lanes)
+                .map_while(|lane| OscillatorRows::of(&structure, &structure.row_of_floor(lane)))
+                .collect(),
             least_approach: scene.solver.min_approach_velocity,
             impulse_response,
             ones: structure.floors.ones(),

@@ -44,7 +44,7 @@ impl System {
                 let pairs = &mut ClosedForces { closed, jacobian: FloorJacobian };
                 series.expand_floors(&structure.floors, order, loads, &mut WithYielding { elements, drifts, pairs });
             }
-            Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
+            Coordinates::Modes if work.rigid.pairs.is_empty() => {
                 let pairs = &mut ClosedForces { closed, jacobian: ModalJacobian(&self.pairs) };
                 series.expand_modes(structure, order, loads, &mut WithYielding { elements, drifts, pairs });
             }

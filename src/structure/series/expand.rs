@@ -83,8 +83,7 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one,
-    /// under a load, its slope and the forces of some pairs.
+    /// Expands from a started series of modes to `order`, or goes on with an expanded one, under a load, its slope and the forces of some pairs.
     pub fn expand_modes(
         &mut self,
         structure: &Structure,
@@ -180,7 +179,7 @@ fn expand_modes<F: PairForces>(
     LinearLoad { load, slope }: LinearLoad,
     forces: &mut F,
 ) {
-    let (width, scale) = (series.lanes / LANES, series.scale);
+    let (width, scale, is_coupled) = (series.lanes / LANES, series.scale, !structure.is_classical());
     let vectors = [&structure.damping, &structure.omega2, load, slope];
     let [damping, omega2, load, slope] = vectors.map(|of| &of.as_chunks::<LANES>().0[..width]);
     let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
@@ -200,6 +199,9 @@ fn expand_modes<F: PairForces>(
                 let pulled = (factor * omega2[c][i]) * before[c][i];
                 (factor * load[i] - pulled) - (rate * damping[c][i]) * last[c][i]
             });
+        }
+        if is_coupled {
+            structure.subtract_coupling(last.as_flattened(), rate, next.as_flattened_mut());
         }
         forces.act(n, factor, next);
     }
