@@ -16,6 +16,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss};
 use crate::numerics::sum::Sum;
+use crate::numerics::time_map::TimeMap;
 use crate::structure::{Counts, FlightWork, Motion, MotionMut, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
@@ -187,11 +188,7 @@ impl System {
         match step.dense() {
             _ if length == 0.0 => return done,
             Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
-            Dense::Taylor(Solution { series, .. }) => {
-                self.integrate_series(base, series, (0.0, length), work, &mut done);
-                series.set_powers(length, &mut work.powers);
-                series.evaluate(&work.powers, &mut work.q, &mut work.v);
-            }
+            Dense::Taylor(solution) => self.integrate_taylor(base, solution, length, work, &mut done),
             _ => {
                 let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
                     step.evaluate_with_pairs(self, t, powers, MotionMut { q, v }, &mut []);
@@ -279,7 +276,7 @@ impl System {
         for i in 0..pieces {
             let start = Motion { q: &work.q, v: &work.v };
             series.expand_flight(flying, start, work.loads(), (h, order));
-            self.integrate_series(base, &series, (i as f64 * h, h), work, done);
+            self.integrate_series(base, (&series, TimeMap::default()), (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);
             series.evaluate(&work.powers, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
@@ -289,35 +286,70 @@ impl System {
         work.series = series;
     }
 
-    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds. Modes are
-    /// evaluated at all nodes side by side.
+    /// Work over the first `length` seconds of a Taylor step. A series that has a time map is changed to one in its x,
+    /// once for all nodes; leaves the motion at the end in `work.q`, `work.v` where a master pushes.
+    fn integrate_taylor(
+        &self,
+        base: &Base,
+        Solution { series, substitution, .. }: &Solution,
+        length: f64,
+        work: &mut Buffers,
+        done: &mut Work,
+    ) {
+        let mut in_x = std::mem::take(&mut work.series);
+        let moved = match series.time_map.is_curved() {
+            true => {
+                in_x.set_in_x(series, substitution);
+                &in_x
+            }
+            false => series,
+        };
+        self.integrate_series(base, (moved, series.time_map), (0.0, length), work, done);
+        work.series = in_x;
+        if self.is_pushed {
+            series.set_powers(length, &mut work.powers);
+            series.evaluate(&work.powers, &mut work.q, &mut work.v);
+        }
+    }
+
+    /// Adds the work over a series in the x of a time map that begins `from` seconds after the base, over `length` seconds.
+    /// Modes are evaluated at all nodes side by side.
     fn integrate_series(
         &self,
         base: &Base,
-        series: &MotionSeries,
+        (series, time_map): (&MotionSeries, TimeMap),
         (from, length): (f64, f64),
         work: &mut Buffers,
         done: &mut Work,
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.push_slopes.iter().all(Vec::is_empty);
-        if !is_plain || series.time_map.is_curved() {
+        if !is_plain {
             let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
-                series.set_powers(t, powers);
+                let x = time_map.inverse(t / series.scale);
+                series.set_powers(x * series.scale, powers);
                 series.evaluate(powers, q, v);
+                let per_time = 1.0 / time_map.rate(x);
+                v.iter_mut().for_each(|v| *v *= per_time);
             };
             return self.integrate(base, motion, gauss(TWELVE, length), from, work, done);
         }
         let times = TWELVE_POINTS.map(|(node, _)| node * length);
-        let x = times.map(|t| t / series.scale);
+        let mut x = times.map(|t| t / series.scale);
+        let mut per_time = [1.0; TWELVE_POINTS.len()];
+        if time_map.is_curved() {
+            x = x.map(|t| time_map.inverse(t));
+            per_time = x.map(|x| 1.0 / time_map.rate(x));
+        }
         let oscillators = self.structure.oscillators().filter(|_| base.oscillates);
         let WorkRoom { dashpots, nodes, .. } = &mut work.account;
         let [momentum, viscous] = series.powers_at_nodes(&self.structure, oscillators, &x, nodes);
         for (i, (_, weight)) in TWELVE_POINTS.iter().enumerate() {
             let acceleration = base.segment.acceleration_at(base.elapsed + from + times[i]);
-            done.input -= weight * length * acceleration * momentum[i];
-            done.viscous += weight * length * viscous[i];
+            let (first, second) = (weight * length * per_time[i], weight * length * (per_time[i] * per_time[i]));
+            done.input -= first * acceleration * momentum[i];
+            done.viscous += second * viscous[i];
             for (done, power) in dashpots.iter_mut().zip(&nodes.dashpots) {
-                *done += weight * length * power[i];
+                *done += second * power[i];
             }
         }
     }

@@ -123,6 +123,14 @@ impl MotionSeries {
         bounds.iter_mut().for_each(|bound| *bound *= square * square);
     }
 
+    /// Becomes another series, in the x of its time map.
+    pub fn set_in_x(&mut self, of: &MotionSeries, substitution: &Substitution) {
+        (self.order, self.scale, self.time_map) = (of.order, of.scale, TimeMap::default());
+        let end = (self.order + 1) * self.lanes;
+        self.coefficients[..end].copy_from_slice(&of.coefficients[..end]);
+        substitution.apply(self.coefficients[..end].as_chunks_mut::<LANES>().0, self.lanes / LANES);
+    }
+
     /// Becomes the series of the accelerations of another one, m/s2, in the x of its time map.
     pub fn set_accelerations(&mut self, of: &MotionSeries, substitution: &Substitution) {
         (self.order, self.scale, self.time_map) = (of.order.saturating_sub(2), of.scale, TimeMap::default());
