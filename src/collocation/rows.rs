@@ -9,7 +9,7 @@ const ABREAST: usize = 2;
 
 /// A row by fours, as many numbers as wide instructions take: the first N / 4 of these are the first N numbers. Without
 /// this form the compiler bundles sixteen sums in another way and does the rest one by one.
-pub(super) type Fours = [[f64; 4]; NODES / 4];
+pub(crate) type Fours = [[f64; 4]; NODES / 4];
 
 /// Zeros to add to.
 pub(super) const NOTHING: Fours = [[0.0; 4]; NODES / 4];
@@ -56,7 +56,7 @@ pub(super) fn combined<const N: usize>(rows: &[AtNodes], factors: &[f64]) -> AtN
 
 /// A matrix times values.
 #[inline(always)]
-pub(super) fn product<const N: usize>(matrix: &Matrix, values: &AtNodes) -> Fours {
+pub(crate) fn product<const N: usize>(matrix: &Matrix, values: &AtNodes) -> Fours {
     add_product::<N>(&NOTHING, matrix, values)
 }
 
@@ -161,7 +161,7 @@ pub(super) fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (A
 }
 
 #[inline(always)]
-pub(super) fn row(fours: &Fours) -> AtNodes {
+pub(crate) fn row(fours: &Fours) -> AtNodes {
     let mut row = [0.0; NODES];
     fours_mut(&mut row).copy_from_slice(fours);
     row

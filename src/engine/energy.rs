@@ -189,13 +189,25 @@ impl System {
             _ if length == 0.0 => return done,
             Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
             Dense::Taylor(solution) => self.integrate_taylor(base, solution, length, work, &mut done),
+            Dense::Window(window, free) if length == window.solution.length => {
+                let all = window.moments_at_nodes();
+                let mut moments = all.iter();
+                let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
+                    let Some(moments) = moments.next() else { return };
+                    window.evaluate_by(moments, self, (free, powers), t, MotionMut { q, v });
+                };
+                self.integrate(base, motion, window.nodes(length), 0.0, work, &mut done);
+            }
             _ => {
                 let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
                     step.evaluate_with_pairs(self, t, powers, MotionMut { q, v }, &mut []);
                 };
-                motion(length, &mut work.powers, &mut work.q, &mut work.v);
                 self.integrate(base, motion, step.quadrature(length), 0.0, work, &mut done);
             }
+        }
+        if self.is_pushed && !step.is_flight() {
+            let Buffers { powers, q, v, .. } = &mut *work;
+            step.evaluate_with_pairs(self, length, powers, MotionMut { q, v }, &mut []);
         }
         // Work of what a master pushes with at its values at the base; the quadratures add that of its change.
         let at_base = |push: &LinearInput| push.after(base.segment.start, base.elapsed);
@@ -287,7 +299,7 @@ impl System {
     }
 
     /// Work over the first `length` seconds of a Taylor step. A series that has a time map is changed to one in its x,
-    /// once for all nodes; leaves the motion at the end in `work.q`, `work.v` where a master pushes.
+    /// once for all nodes.
     fn integrate_taylor(
         &self,
         base: &Base,
@@ -306,10 +318,6 @@ impl System {
         };
         self.integrate_series(base, (moved, series.time_map), (0.0, length), work, done);
         work.series = in_x;
-        if self.is_pushed {
-            series.set_powers(length, &mut work.powers);
-            series.evaluate(&work.powers, &mut work.q, &mut work.v);
-        }
     }
 
     /// Adds the work over a series in the x of a time map that begins `from` seconds after the base, over `length` seconds.

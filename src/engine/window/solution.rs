@@ -2,6 +2,7 @@
 
 use crate::collocation::{
     AtNodes, Equation, Kernel, MOST_PAIRS, NODES, NodeCount, Nodes, POWERS, SolvedWindow, Tables, dot, fours, nodes,
+    product, row,
 };
 use crate::engine::base::contact::Contact;
 use crate::engine::follow::NEARLY;
@@ -61,9 +62,20 @@ impl Window {
 
     /// Times, s, and weights, s, of a quadrature until `elapsed` for the whole motion. It may be faster than the
     /// contact's, for which the window's own nodes are made: these would be too few.
-    pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
+    pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> + use<> {
         let part = self.part(elapsed, NodeCount::Sixteen);
         part.times.into_iter().zip(part.weights)
+    }
+
+    /// The moments until each node of the quadrature over the whole window.
+    pub fn moments_at_nodes(&self) -> [Moments; NODES] {
+        let mut all = [Moments::default(); NODES];
+        for (place, force) in self.solution.force.iter().enumerate().take(self.equation.closed) {
+            weigh_at_nodes(&self.solution, force, self.equation.powers, |node, power, moment| {
+                all[node][place][power] = moment;
+            });
+        }
+        all
     }
 
     /// Works out the moments over the whole window and the bounds on the forces, once a solution has been found.
@@ -144,6 +156,26 @@ fn weigh_whole(whole: &[AtNodes], force: &AtNodes, length: f64, moments: &mut [f
     }
 }
 
+/// The moments of one force until each of sixteen nodes: through its values goes one polynomial, whatever their number.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn weigh_at_nodes(
+    &SolvedWindow { map, rule, length, .. }: &SolvedWindow,
+    force: &AtNodes,
+    powers: usize,
+    mut enter: impl FnMut(usize, usize, f64),
+) {
+    let force = match rule {
+        NodeCount::Sixteen => *force,
+        _ => nodes(rule).interpolant(force).at(&nodes(NodeCount::Sixteen).x),
+    };
+    let mut power = length;
+    for (k, inner) in Tables::of(map, NodeCount::Sixteen).inner.iter().enumerate().take(powers) {
+        let moments = row(&product::<NODES>(inner, &force));
+        moments.iter().enumerate().for_each(|(node, moment)| enter(node, k, power * moment));
+        power *= length;
+    }
+}
+
 /// The moments of one force over a part of its window.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn weigh(nodes: &Nodes, force: &AtNodes, part: &WindowPart, elapsed: f64, moments: &mut [f64]) {
@@ -166,6 +198,25 @@ impl Window {
         self.evaluate_with_pairs(system, free, elapsed, motion, &mut []);
     }
 
+    /// The same motion, from the moments until then.
+    pub fn evaluate_by(
+        &self,
+        moments: &Moments,
+        system: &System,
+        (free, powers): (&MotionSeries, &mut Powers),
+        elapsed: f64,
+        MotionMut { q, v }: MotionMut,
+    ) {
+        let Some(response) = &system.impulse_response else {
+            return debug_assert!(false, "a window has a response to impulses");
+        };
+        powers.set(elapsed / free.scale, free.order);
+        free.evaluate(powers, q, v);
+        for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
+            response.push(&system.pairs[*p].row.modes, &moments[..self.equation.powers], MotionMut { q, v });
+        }
+    }
+
     /// The same motion, and the (penetration, m, rate, m/s) of each closed pair, by its number, where `pairs` has room for all.
     pub fn evaluate_with_pairs(
         &self,
@@ -175,16 +226,9 @@ impl Window {
         MotionMut { q, v }: MotionMut,
         pairs: &mut [(f64, f64)],
     ) {
-        let Some(response) = &system.impulse_response else {
-            return debug_assert!(false, "a window has a response to impulses");
-        };
-        powers.set(elapsed / free.scale, free.order);
-        free.evaluate(powers, q, v);
         let mut room = None;
         let moments = self.moments(elapsed, &mut room);
-        for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
-            response.push(&system.pairs[*p].row.modes, &moments[..self.equation.powers], MotionMut { q, v });
-        }
+        self.evaluate_by(moments, system, (free, powers), elapsed, MotionMut { q, v });
         for (place, &p) in self.contacts.iter().enumerate().take(self.equation.closed) {
             if let Some(pair) = pairs.get_mut(p) {
                 *pair = if elapsed == self.solution.length {
