@@ -69,7 +69,7 @@ impl Model {
         EngineError::TooManyIntervals { from, until, segments, most }
     }
 
-    /// The work of a communication step at its beginning.
+    /// The work of a communication step at its beginning, or at its first step that is no cleared flight.
     pub(in crate::engine) fn progress(&self, state: &State) -> Progress {
         let State { time, counters, base, .. } = state;
         let before = counters.steps();

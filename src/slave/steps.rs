@@ -225,10 +225,13 @@ impl Slave {
     }
 
     /// Whether inputs that are lines stay in their range up to a time, s: how far a line goes on is known only here.
+    #[inline]
     fn check_lines(&self, target: f64) -> Result<(), Refusal> {
-        if !self.run.inputs().are_moving() {
-            return Ok(());
-        }
+        if self.run.inputs().are_moving() { self.check_moving(target) } else { Ok(()) }
+    }
+
+    #[inline(never)]
+    fn check_moving(&self, target: f64) -> Result<(), Refusal> {
         let beyond = self.table.problems(self.run.inputs(), target);
         let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
         Refusal::unless_empty(beyond.into_iter().map(at_end).collect())

@@ -114,7 +114,7 @@ impl Model {
         stops: bool,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
-        let mut progress = self.progress(state);
+        let mut progress = None;
         loop {
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
@@ -145,7 +145,7 @@ impl Model {
         &self,
         state: &mut State,
         end: f64,
-        progress: &mut Progress,
+        progress: &mut Option<Progress>,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         if state.step.planned.is_cleared {
@@ -153,6 +153,7 @@ impl Model {
             self.take_cleared(state, end);
             return self.check_motion(&state.base);
         }
+        let progress = progress.get_or_insert_with(|| self.progress(state));
         progress.note(end > state.base.elapsed);
         self.take(state, end, on_episode);
         self.check_numbers(state)?;

@@ -54,7 +54,7 @@ impl Model {
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         state.stop = Stop::Handled { goal };
-        let mut progress = self.progress(state);
+        let mut progress = None;
         loop {
             self.take_planned(state, end, &mut progress, on_episode)?;
             if state.base.collapsed.is_some() || !self.begin_next_segment(state) {

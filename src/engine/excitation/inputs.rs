@@ -119,8 +119,12 @@ impl Inputs {
     }
 
     /// Whether any changes with time.
+    #[inline]
     pub fn are_moving(&self) -> bool {
-        self.pushes().chain([&self.ground_acceleration]).any(|input| input.slope != 0.0)
+        let is_moving = |input: &LinearInput| input.slope != 0.0;
+        is_moving(&self.ground_acceleration)
+            || self.floor_forces.iter().any(is_moving)
+            || self.corrections.iter().any(is_moving)
     }
 
     /// Whether they can be those of a scene: as many as it has, and finite numbers.

@@ -8,7 +8,7 @@
 
 use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::numerics::identity::next_identity;
-use crate::structure::Motion;
+use crate::structure::{LANES, Motion};
 
 /// Number of entries of a log: that many, so many more for each lane of modes, and at most. A long log leaves less to be
 /// searched, which counts where there are many quantities; a short one touches less memory for the first time, which counts in
@@ -115,8 +115,10 @@ impl FlightLog {
 
     /// Adds a flight by the motion at its start.
     pub fn push(&mut self, Motion { q, v }: Motion, load: Load) {
-        self.q.extend_from_slice(q);
-        self.v.extend_from_slice(v);
+        for (all, one) in [(&mut self.q, q), (&mut self.v, v)] {
+            // Block by block: there are few.
+            one.as_chunks::<LANES>().0.iter().for_each(|block| all.extend(block));
+        }
         self.loads.push(load);
     }
 

@@ -185,7 +185,7 @@ impl Windows {
             if let Some(least) = solution.rule.next() {
                 return Verdict::Another(Trial { least, ..trial });
             }
-            let share = libm::pow(allowed / error, 0.2);
+            let share = libm::pow(allowed / error, 1.0 / trial.order());
             return Verdict::Another(trial.shorter((0.9 * share).max(0.3)));
         }
         match self.is_certain(system, base, (window, free), work, trial.ending) {

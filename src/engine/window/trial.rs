@@ -64,6 +64,12 @@ impl Trial {
         }
     }
 
+    /// The power of the length with which the error of sixteen nodes grows, roughly: lower where they are nodes in a fourth
+    /// root of the time.
+    pub fn order(&self) -> f64 {
+        if matches!(self.map, Map::FourthStart | Map::FourthBoth) { 5.0 } else { 10.0 }
+    }
+
     /// A window without an event, of that share of the length.
     pub fn shorter(self, share: f64) -> Trial {
         Trial { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
