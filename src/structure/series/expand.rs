@@ -189,19 +189,22 @@ fn expand_modes<F: PairForces>(
         let next = &mut rest[..width];
         let factor = scale * scale * SECOND_RECIPROCAL[n];
         let rate = (n + 1) as f64 * (scale * SECOND_RECIPROCAL[n]);
+        // All of damping first, of which the off-diagonal part is as large as the rest.
+        if is_coupled {
+            next.fill([0.0; LANES]);
+            structure.subtract_coupling(last.as_flattened(), rate, next.as_flattened_mut());
+        }
         for c in 0..width {
             let load: Lane = match n {
                 0 => load[c],
                 1 => slope[c].map(|slope| slope * scale),
                 _ => [0.0; LANES],
             };
+            let coupled = if is_coupled { next[c] } else { [0.0; LANES] };
             next[c] = each(|i| {
                 let pulled = (factor * omega2[c][i]) * before[c][i];
-                (factor * load[i] - pulled) - (rate * damping[c][i]) * last[c][i]
+                (factor * load[i] - pulled) - ((rate * damping[c][i]) * last[c][i] - coupled[i])
             });
-        }
-        if is_coupled {
-            structure.subtract_coupling(last.as_flattened(), rate, next.as_flattened_mut());
         }
         forces.act(n, factor, next);
     }
