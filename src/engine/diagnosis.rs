@@ -26,12 +26,6 @@ impl Model {
         Err(self.overflow(base))
     }
 
-    /// Refuses a motion that is not finite.
-    #[inline]
-    pub(in crate::engine) fn check_motion(&self, base: &Base) -> Result<(), EngineError> {
-        if sum_of_motion(base).is_finite() { Ok(()) } else { Err(self.overflow(base)) }
-    }
-
     #[cold]
     fn overflow(&self, base: &Base) -> EngineError {
         // After an overflow no number is left to judge by: of the contacts that were closed, the stiffest is the

@@ -149,9 +149,9 @@ impl Model {
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         if state.step.planned.is_cleared {
-            // Of these there are no more than segments, which have been counted before.
+            // Of these there are no more than segments, which have been counted before, and no bounds clear what is no number.
             self.take_cleared(state, end);
-            return self.check_motion(&state.base);
+            return Ok(());
         }
         let progress = progress.get_or_insert_with(|| self.progress(state));
         progress.note(end > state.base.elapsed);
