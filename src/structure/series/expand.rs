@@ -83,7 +83,8 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes to `order`, or goes on with an expanded one, under a load, its slope and the forces of some pairs.
+    /// Expands from a started series of modes to `order`, or goes on with an expanded one, under a load, its slope and the
+    /// forces of some pairs.
     pub fn expand_modes(
         &mut self,
         structure: &Structure,
