@@ -10,9 +10,8 @@
 //! Prints the wall seconds of each repeat, then the number of impacts, then counters of the work and sizes as
 //! `name=value`; OUTPUT gets the displacements (float64, a row of floors every 0.05 s). The other compiled solvers of
 //! `benchmarks/` are called in the same way. A repeat goes from a fresh state to the end of the record and includes
-//! everything that the engine always does (peaks of the floors where the scene has them, which the benchmark's leave out):
-//! peak forces, impulses, dissipated energies, and the reading of the
-//! displacements at the output times.
+//! everything that the engine always does: peak forces, impulses, dissipated energies, peaks of the floors where the scene
+//! has them, and the reading of the displacements at the output times.
 //!
 //! `coupled` does the same every 0.01 s, as a co-simulation with that communication step would.
 //!
