@@ -249,13 +249,14 @@ fn iterate_by_rule(
     solution: &mut SolvedWindow,
     equation: &Equation,
     work: &mut WindowWorkspace,
-    start: (Frame, bool),
+    (frame, is_known): (Frame, bool),
     tolerance: f64,
 ) -> bool {
-    match start.0.rule {
-        NodeCount::Eight => iterate::<{ NodeCount::Eight.count() }>(solution, equation, work, start, tolerance),
-        NodeCount::Twelve => iterate::<{ NodeCount::Twelve.count() }>(solution, equation, work, start, tolerance),
-        NodeCount::Sixteen => iterate::<{ NodeCount::Sixteen.count() }>(solution, equation, work, start, tolerance),
+    let from = (frame, is_known);
+    match frame.rule {
+        NodeCount::Eight => iterate::<{ NodeCount::Eight.count() }>(solution, equation, work, from, tolerance),
+        NodeCount::Twelve => iterate::<{ NodeCount::Twelve.count() }>(solution, equation, work, from, tolerance),
+        NodeCount::Sixteen => iterate::<{ NodeCount::Sixteen.count() }>(solution, equation, work, from, tolerance),
     }
 }
 

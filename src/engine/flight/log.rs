@@ -116,7 +116,7 @@ impl FlightLog {
     /// Adds a flight by the motion at its start.
     pub fn push(&mut self, Motion { q, v }: Motion, load: Load) {
         for (all, one) in [(&mut self.q, q), (&mut self.v, v)] {
-            // Block by block: there are few.
+            // Block by block: most have one or two, for which a call that copies any number costs more.
             one.as_chunks::<LANES>().0.iter().for_each(|block| all.extend(block));
         }
         self.loads.push(load);

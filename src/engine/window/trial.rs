@@ -64,8 +64,8 @@ impl Trial {
         }
     }
 
-    /// The power of the length with which the error of sixteen nodes grows, roughly: lower where they are nodes in a fourth
-    /// root of the time.
+    /// The power of the length with which the error of sixteen nodes grows, roughly and found by measurement: lower where
+    /// they are nodes in a fourth root of the time.
     pub fn order(&self) -> f64 {
         if matches!(self.map, Map::FourthStart | Map::FourthBoth) { 5.0 } else { 10.0 }
     }
