@@ -43,8 +43,9 @@ pub(super) fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &
     }
 }
 
+/// The sum of rows times factors.
 #[inline(always)]
-pub(super) fn combined<const N: usize>(rows: &[AtNodes], factors: &[f64]) -> AtNodes {
+pub(crate) fn combined<const N: usize>(rows: &[AtNodes], factors: &[f64]) -> AtNodes {
     let mut sum = NOTHING;
     for (row, factor) in rows.iter().zip(factors) {
         for (sum, row) in sum.iter_mut().zip(fours(row)).take(N / 4) {
@@ -138,7 +139,7 @@ fn inside(depth: &[f64; 4]) -> [f64; 4] {
 
 /// Values of a polynomial at N points.
 #[inline(always)]
-pub(super) fn value<const N: usize>(terms: &[f64], x: &Fours) -> AtNodes {
+pub(crate) fn value<const N: usize>(terms: &[f64], x: &Fours) -> AtNodes {
     let mut value = NOTHING;
     for (value, x) in value.iter_mut().zip(x).take(N / 4) {
         *value = terms.iter().rev().fold([0.0; 4], |value, term| each(|i| value[i] * x[i] + term));

@@ -190,13 +190,15 @@ impl System {
             Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
             Dense::Taylor(solution) => self.integrate_taylor(base, solution, length, work, &mut done),
             Dense::Window(window, free) if length == window.solution.length => {
-                let all = window.moments_at_nodes();
-                let mut moments = all.iter();
+                let mut moments = std::mem::take(&mut work.moments);
+                window.set_moments(&mut moments);
+                let mut node = 0..;
                 let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
-                    let Some(moments) = moments.next() else { return };
-                    window.evaluate_by(moments, self, (free, powers), t, MotionMut { q, v });
+                    let moments = window.moments_at_node(&moments, node.next().unwrap_or(0));
+                    window.evaluate_by(&moments, self, (free, powers), t, MotionMut { q, v });
                 };
                 self.integrate(base, motion, window.nodes(length), 0.0, work, &mut done);
+                work.moments = moments;
             }
             _ => {
                 let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {

@@ -4,9 +4,10 @@
 //! Peaks are searched between the nodes of the whole step even where only a part of it is read: they are the same to
 //! the last bit for every reader, and none ever falls.
 
+use crate::collocation::NODES;
 use crate::contact::Force;
 use crate::engine::base::contact::{Contact, Passage};
-use crate::numerics::roots::{Knot, roughly, turning_point};
+use crate::numerics::roots::{Knot, highest_between, roughly};
 
 /// A closed contact in a step, as the solution of its kind of step tells it. Times are in seconds since the start of
 /// the step.
@@ -59,6 +60,9 @@ pub(super) struct Nodes<const N: usize> {
 
 /// A node next to a peak has at least this share of it.
 pub(super) const NEARLY: f64 = 0.97;
+
+/// Most nodes, and both ends.
+const MOST_PLACES: usize = NODES + 2;
 
 /// Share of a step, from either end, within which a force may have no slope. A peak there differs from the force at
 /// that end only relatively by the square of this.
@@ -133,29 +137,21 @@ impl<const N: usize, C: Course<N>> Search<'_, N, C> {
         known: f64,
     ) -> Option<(f64, f64)> {
         let Search { course, start, nodes, last, until } = *self;
+        let mut places = [(last.time, value(last.penetration, last.rate)); MOST_PLACES];
+        places[0] = (0.0, value(start.0, start.1));
+        let inside = nodes.times.iter().zip(nodes.depths.iter().zip(&nodes.rates)).take(nodes.count);
+        for (place, (time, (depth, rate))) in places[1..].iter_mut().zip(inside) {
+            *place = (*time, value(*depth, *rate));
+        }
         let knot = |time: f64| {
             let [depth, rate, second] = course.near(time.clamp(EDGE * last.time, (1.0 - EDGE) * last.time));
             Knot { x: time, value: value(depth, rate), slope: slope([depth, rate, second]) }
         };
-        let end = (last.time, value(last.penetration, last.rate));
-        let mut best = (0.0, known);
-        let mut here = (0.0, value(start.0, start.1));
-        let mut before = here;
-        for i in 0..nodes.count + 2 {
-            let next = if i < nodes.count { (nodes.times[i], value(nodes.depths[i], nodes.rates[i])) } else { end };
-            if here.1 >= before.1 && here.1 >= next.1 && here.1 > NEARLY * best.1 {
-                let to = knot(next.0);
-                let from = (to.slope < 0.0).then(|| knot(before.0)).filter(|from| from.slope > 0.0);
-                if let Some(from) = from {
-                    let time = roughly(turning_point([from, to], knot));
-                    let (depth, rate) = course.at(time);
-                    if time <= until && value(depth, rate) > best.1 {
-                        best = (time, value(depth, rate));
-                    }
-                }
-            }
-            (before, here) = (here, next);
-        }
-        (best.1 > known).then_some(best)
+        let exactly = |time: f64, _| {
+            let (depth, rate) = course.at(roughly(time));
+            (roughly(time) <= until).then(|| value(depth, rate))
+        };
+        let found = highest_between(&places[..nodes.count + 2], (known, NEARLY), knot, exactly);
+        found.map(|(time, value)| (roughly(time), value))
     }
 }

@@ -1,7 +1,7 @@
 //! The dense solution from the base on, by one of a few kinds of step. Motion and contacts within a step are read here,
 //! whatever its kind; code that needs more of it matches on [`Step::dense`].
 
-use crate::collocation::{Map, NODES};
+use crate::collocation::NODES;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::element::ElementState;
@@ -157,20 +157,6 @@ impl Step {
             Dense::Window(window, _) => window.nodes(length).for_each(&mut enter),
         }
         nodes.into_iter().take(count)
-    }
-
-    /// The map from 0..1 to the time of a step in which its motion is smooth, where it is no power series, and the x from
-    /// which on its accelerations are to be read: at an entry under a power law they have no finite slope, and the terms of an
-    /// onset step are divided by powers of the time.
-    pub(super) fn smooth_in(&self) -> (Map, f64) {
-        match self.dense() {
-            Dense::Onset(_) => (Map::FourthStart, 0.03),
-            Dense::Window(window, _) => match window.solution.map.without_end() {
-                Map::Plain => (Map::Plain, 0.0),
-                map => (map, 1e-3),
-            },
-            Dense::Taylor(_) | Dense::Flight => (Map::Plain, 0.0),
-        }
     }
 
     /// Evaluates a flight backwards from its planned end, under the load in `work`, if less than `NEARLY_OVER` of it is

@@ -5,6 +5,7 @@ use super::lanes::{LANES, Lane};
 use super::motion::MotionMut;
 use super::series::sums::sum_blocks;
 use crate::numerics::polynomial::{COUNT, each};
+use std::ops::Range;
 
 /// Powers of time of an impulse response.
 pub const RESPONSE_POWERS: usize = 20;
@@ -59,19 +60,17 @@ impl ImpulseResponse {
     /// The kernel G_pq, the response of the distance of pair p to a unit impulse at pair q, in powers of t, m/(N s^k),
     /// from the rows of both pairs.
     pub fn kernel(&self, row: &[f64], other: &[f64]) -> [f64; RESPONSE_POWERS] {
-        let mut kernel = [0.0; RESPONSE_POWERS];
-        for (k, kernel) in kernel.iter_mut().enumerate() {
-            let mut sum = [0.0; LANES];
-            let terms = self.term(k).as_chunks::<LANES>().0.iter();
-            let rows = row.as_chunks::<LANES>().0.iter().zip(other.as_chunks::<LANES>().0);
-            for (term, (row, other)) in terms.zip(rows) {
-                for i in 0..LANES {
-                    sum[i] += row[i] * other[i] * term[i];
-                }
-            }
-            *kernel = (sum[0] + sum[2]) + (sum[1] + sum[3]);
-        }
-        kernel
+        kernel(self, (0..self.lanes, RESPONSE_POWERS), row, other)
+    }
+
+    /// Some first powers of that of a row that is 0 outside of some lanes.
+    pub fn kernel_in(
+        &self,
+        (lanes, powers): (Range<usize>, usize),
+        row: &[f64],
+        other: &[f64],
+    ) -> [f64; RESPONSE_POWERS] {
+        kernel(self, (lanes, powers), row, other)
     }
 
     /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
@@ -79,6 +78,28 @@ impl ImpulseResponse {
     pub fn push(&self, row: &[f64], moments: &[f64], motion: MotionMut) {
         push(self, row, moments, motion);
     }
+}
+
+/// See [`ImpulseResponse::kernel`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn kernel(
+    response: &ImpulseResponse,
+    (lanes, powers): (Range<usize>, usize),
+    row: &[f64],
+    other: &[f64],
+) -> [f64; RESPONSE_POWERS] {
+    let (width, blocks) = (response.lanes / LANES, lanes.start / LANES..lanes.end.div_ceil(LANES));
+    let [row, other] = [row, other].map(|row| &row.as_chunks::<LANES>().0[blocks.clone()]);
+    let mut kernel = [0.0; RESPONSE_POWERS];
+    let terms = response.terms.as_chunks::<LANES>().0.chunks_exact(width);
+    for (kernel, terms) in kernel.iter_mut().zip(terms).take(powers) {
+        let mut sum = [0.0; LANES];
+        for (term, (row, other)) in terms[blocks.clone()].iter().zip(row.iter().zip(other)) {
+            sum = each(|i| sum[i] + row[i] * other[i] * term[i]);
+        }
+        *kernel = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    }
+    kernel
 }
 
 /// See [`ImpulseResponse::push`].

@@ -352,7 +352,7 @@ impl Model {
         if step.is_flight() {
             return self.raise_over_flight(base, step, inputs, work);
         }
-        peaks.note_starts(&base.contacts, &mut work.for_peaks());
+        peaks.note_first_forces(&base.contacts, &mut work.for_peaks());
         step.follow(&self.system, &mut base.contacts, start);
         if !self.watched.rows.are_none() && step.planned.length > 0.0 {
             peaks.raise_over_step(base, step, inputs, end, &mut work.for_peaks());

@@ -26,12 +26,10 @@ const TRUSTED: f64 = 1e-6;
 const EXACT: f64 = 1e-11;
 
 impl PeakFinder<'_> {
-    /// Notes forces, penetrations and rates of the contacts at the start of a step.
-    pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut PeakWork) {
-        let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
-        for ((force, start), contact) in starts.zip(contacts) {
+    /// Notes the forces of the contacts at the start of a step.
+    pub(in crate::engine) fn note_first_forces(&self, contacts: &[Contact], work: &mut PeakWork) {
+        for (force, contact) in work.peaks.first_forces.iter_mut().zip(contacts) {
             *force = contact.present_force();
-            *start = (contact.penetration, contact.rate);
         }
     }
 
@@ -54,11 +52,9 @@ impl PeakFinder<'_> {
             (step.planned.length, step.end_powers()),
             &mut work.peaks.strongest,
         );
-        let starts = std::mem::take(&mut work.peaks.starts);
-        let part = ContactStep::whole((base, step, inputs), &starts);
+        let part = ContactStep::whole(base, step, inputs);
         self.find_open(&part, &mut peaks, work);
         self.search_noted(&part, &mut peaks, work);
-        work.peaks.starts = starts;
         // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, a
         // master's pushes and another position of rest may.
         if self.system.rigid.pairs.is_empty() && !self.system.is_pushed && !base.is_yielding() {
@@ -77,24 +73,22 @@ impl PeakFinder<'_> {
     ) {
         let mut powers = Powers::default();
         step.set_powers(elapsed, &mut powers);
-        self.note_starts(&base.contacts, work);
+        self.note_first_forces(&base.contacts, work);
         for p in 0..self.system.pairs.len() {
             work.peaks.last_forces[p] = step.contact_at(self.system, base, p, elapsed, &powers).present_force();
         }
         step.bound_forces(self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
-        let starts = std::mem::take(&mut work.peaks.starts);
-        let part = ContactStep { base, step, inputs, starts: &starts, length: elapsed, end };
+        let part = ContactStep { base, step, inputs, length: elapsed, end };
         self.find_open(&part, peaks, work);
         self.search_noted(&part, peaks, work);
-        work.peaks.starts = starts;
         work.peaks.floors.forget();
     }
 
     /// Raises peaks to the motion of the base with its contact forces. An input that has just been set does not count
     /// yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut PeakWork) {
-        self.note_starts(&base.contacts, work);
+        self.note_first_forces(&base.contacts, work);
         work.peaks.strongest.fill(0.0);
         work.peaks.last_forces.copy_from_slice(&work.peaks.first_forces);
         self.find_pushes(base, work);
@@ -271,7 +265,7 @@ impl PeakFinder<'_> {
     /// Raises the peaks that have been noted over a part of a step.
     fn search_noted(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         let open = std::mem::take(&mut work.peaks.open);
-        work.peaks.readings.restart();
+        work.peaks.has_moments = false;
         for quantity in &open {
             if quantity.may_exceed(peaks) {
                 let known = peaks.values[quantity.place];
@@ -314,7 +308,7 @@ impl PeakFinder<'_> {
                     _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
                 }
             }
-            _ => self.highest_by_readings(&quantity, known, part, work),
+            _ => self.highest_by_nodes(&quantity, known, part, work),
         };
         work.peaks.rows = rows;
         peak

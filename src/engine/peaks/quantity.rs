@@ -1,13 +1,17 @@
 //! One quantity as rows over the motion: its values, its power series, and the largest magnitude of a series.
 
+use crate::collocation::AtNodes;
+use crate::contact::onset::{MOST_TERMS, derivatives};
 use crate::engine::base::Coordinates;
+use crate::engine::onset::series::OnsetSeries;
 use crate::engine::peaks::PeakFinder;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
+use crate::engine::window::quantity::Share;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS, larger};
 use crate::numerics::powers::{Evaluation, Powers};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{LANES, LinearGround, MotionSeries, dot};
+use crate::structure::{ImpulseResponse, LANES, LinearGround, MotionSeries, dot};
 use std::ops::Range;
 
 /// A quantity as rows over the motion in some coordinates.
@@ -43,10 +47,12 @@ impl Quantity<'_> {
 
     /// Product of the second row with a vector of the motion's rate.
     pub fn of_rate(&self, rate: &[f64]) -> f64 {
-        match self.of {
-            PeakOf::BaseShear(_) | PeakOf::LinkForce(_) => dot(&self.rows[1], rate),
-            _ => 0.0,
-        }
+        if self.has_dashpots() { dot(&self.rows[1], rate) } else { 0.0 }
+    }
+
+    /// Whether the rate of the motion is part of it.
+    fn has_dashpots(&self) -> bool {
+        matches!(self.of, PeakOf::BaseShear(_) | PeakOf::LinkForce(_))
     }
 
     /// The power series of the quantity and its highest power, in the x of the motion's series; `substitution` changes
@@ -63,7 +69,7 @@ impl Quantity<'_> {
         }
         // Each derivative loses a power.
         let mut order = series.order;
-        if self.oscillates || matches!(self.of, PeakOf::BaseShear(_) | PeakOf::LinkForce(_)) {
+        if self.oscillates || self.has_dashpots() {
             let mut of_rates = [0.0; MAX_TERMS];
             series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_rates);
             (0..order).for_each(|n| terms[n] += (n + 1) as f64 * of_rates[n + 1] * per_unit);
@@ -85,6 +91,41 @@ impl Quantity<'_> {
             substitution.apply_to_one(&mut terms[..=order]);
         }
         (terms, order)
+    }
+
+    /// What the force of a pair, by its row over the modes, does to it in a window, by its moments of so many `powers`.
+    pub fn share(&self, (response, powers): (&ImpulseResponse, usize), pair: &[f64]) -> Share {
+        // Each derivative takes one power more.
+        let of_row = |row: &[f64]| Share::of_kernel(&response.kernel_in((self.span(), powers + 2), row, pair));
+        let share = of_row(&self.rows[0]);
+        match self.of {
+            PeakOf::Acceleration(..) => share.rate().rate(),
+            _ if self.has_dashpots() => share.plus(&of_row(&self.rows[1]).rate()),
+            _ => share,
+        }
+    }
+
+    /// Its values at times of an onset step, s.
+    pub fn in_onset(&self, onset: &OnsetSeries, times: &AtNodes) -> Option<AtNodes> {
+        let (grid, per_unit) = (onset.grid.as_ref()?, 1.0 / onset.scale);
+        let (x, [added, rate]) = (times.map(|time| time * per_unit), self.added);
+        let mut terms = [0.0; MOST_TERMS];
+        for (index, term) in terms.iter_mut().enumerate().take(grid.terms()) {
+            *term = self.of_motion(onset.term(index));
+        }
+        if let PeakOf::Acceleration(..) = self.of {
+            let [_, _, second] = derivatives(grid, &terms, &x);
+            let ground = times.map(|time| self.ground.after(time));
+            return Some(std::array::from_fn(|i| second[i] * per_unit * per_unit + ground[i]));
+        }
+        let [mut values] = derivatives(grid, &terms, &x);
+        values.iter_mut().zip(times).for_each(|(value, time)| *value += added + rate * time);
+        if self.has_dashpots() {
+            (0..grid.terms()).for_each(|index| terms[index] = self.of_rate(onset.term(index)));
+            let [_, slopes] = derivatives(grid, &terms, &x);
+            values.iter_mut().zip(&slopes).for_each(|(value, slope): (&mut f64, &f64)| *value += slope * per_unit);
+        }
+        Some(values)
     }
 }
 

@@ -1,17 +1,27 @@
 //! The largest magnitude of a quantity in a step without a power series in time: an onset step or a window. Such a step
-//! is part of one oscillation of the contact, so that a few readings find every turning point.
+//! is part of one oscillation of the contact, and is no longer than a series of the fastest mode reaches, so that sixteen nodes
+//! tell every turning point.
 
+use crate::collocation::{AtNodes, Interpolant, MOST_PAIRS, Map, NODES, NodeCount, Nodes, nodes};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::quantity::{Quantity, highest_by};
-use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
+use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
-use crate::engine::step::Step;
+use crate::engine::step::{Dense, Step};
+use crate::engine::window::quantity::Share;
 use crate::numerics::polynomial::{Coefficients, larger};
 use crate::numerics::powers::Powers;
-use crate::numerics::roots::{self, Knot, highest_by_readings};
-use crate::structure::{LinearGround, Motion, MotionMut};
+use crate::numerics::roots::{self, highest_between};
+use crate::structure::{Motion, MotionMut};
+use std::cell::OnceCell;
+
+/// A node next to a turning point has at least this share of the value there.
+const NODES_NEARLY: f64 = 0.9;
+
+/// What the polynomial through the nodes is off by at most at a turning point, relative to its value: more than it ever is.
+const NODES_ERROR: f64 = 1e-3;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -20,8 +30,6 @@ pub struct ContactStep<'a> {
     pub base: &'a Base,
     pub step: &'a Step,
     pub inputs: &'a Inputs,
-    /// Penetrations, m, and rates, m/s, at the start.
-    pub starts: &'a [(f64, f64)],
     /// Length, s.
     pub length: f64,
     /// q and v at the end, in the coordinates of the base and relative to its position of rest.
@@ -30,9 +38,9 @@ pub struct ContactStep<'a> {
 
 impl<'a> ContactStep<'a> {
     /// The whole of a step.
-    pub fn whole((base, step, inputs): (&'a Base, &'a Step, &'a Inputs), starts: &'a [(f64, f64)]) -> ContactStep<'a> {
+    pub fn whole(base: &'a Base, step: &'a Step, inputs: &'a Inputs) -> ContactStep<'a> {
         let planned = &step.planned;
-        ContactStep { base, step, inputs, starts, length: planned.length, end: planned.motion() }
+        ContactStep { base, step, inputs, length: planned.length, end: planned.motion() }
     }
 
     /// The largest magnitude of the ground acceleration, m/s2.
@@ -43,22 +51,61 @@ impl<'a> ContactStep<'a> {
 }
 
 impl PeakFinder<'_> {
-    /// The largest magnitude of a quantity in the first part of a step that is no power series, or `known` if that is larger: in
-    /// the x of a map, in which forces that begin like a root of the time are smooth.
-    pub(in crate::engine) fn highest_by_readings(
+    /// The largest magnitude of a quantity in the first part of a step that is no power series, or `known` if that is larger. Its
+    /// values at sixteen nodes of the whole step tell where it turns, the motion there its value.
+    pub(in crate::engine) fn highest_by_nodes(
         &self,
         quantity: &Quantity,
         known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
-        let ((map, start), length) = (part.step.smooth_in(), part.step.planned.length);
-        let until = if part.length < length { map.inverse(part.length / length) } else { 1.0 };
-        highest_by_readings((known, until), [start, 1.0], |x| {
-            let (theta, rate) = map.at(x);
-            let Knot { value, slope, .. } = self.read_step(quantity, length * theta, part, work);
-            Knot { x, value, slope: length * rate * slope }
-        })
+        let Some((map, values)) = self.read_nodes(quantity, part, work) else { return known };
+        let (of, curve) = (nodes(NodeCount::Sixteen), OnceCell::new());
+        let knot = |x: f64| curve.get_or_init(|| interpolant(of, &values)).knot(x);
+        let mut peak = known;
+        for sign in [1.0, -1.0] {
+            // Next to an end a node is compared with the other one beside it alone.
+            let mut places = [(0.0, f64::NEG_INFINITY); NODES + 2];
+            places[NODES + 1].0 = 1.0;
+            for (place, (x, value)) in places[1..].iter_mut().zip(of.x.iter().zip(&values)) {
+                *place = (*x, sign * value);
+            }
+            let exactly = |x: f64, best: f64| {
+                let time = part.step.planned.length * map.at(x).0;
+                let counts = time <= part.length && sign * knot(x).value > (1.0 - NODES_ERROR) * best;
+                counts.then(|| sign * self.read(quantity, time, part, work))
+            };
+            let found = highest_between(&places, (peak, NODES_NEARLY), |x| knot(x).times(sign), exactly);
+            peak = found.map_or(peak, |(_, value)| value);
+        }
+        peak
+    }
+
+    /// A quantity at sixteen nodes of the whole of a step that is no power series, and the map from their x to its time: in that
+    /// x forces that begin like a root of the time are smooth.
+    fn read_nodes(&self, quantity: &Quantity, part: &ContactStep, work: &mut PeakWork) -> Option<(Map, AtNodes)> {
+        let length = part.step.planned.length;
+        match part.step.dense() {
+            Dense::Window(window, free) => {
+                let moments = &mut work.buffers.moments;
+                if !std::mem::replace(&mut work.peaks.has_moments, true) {
+                    window.set_moments(moments);
+                }
+                let (terms, order) = quantity.terms(free, None);
+                let response = self.system.impulse_response.as_ref()?;
+                let mut shares = [Share::default(); MOST_PAIRS];
+                for (share, p) in shares.iter_mut().zip(&window.contacts).take(window.equation.closed) {
+                    *share = quantity.share((response, window.equation.powers), &self.system.pairs[*p].row.modes);
+                }
+                Some((window.solution.map, window.quantity_at_nodes(&terms[..=order], &shares, moments)))
+            }
+            Dense::Onset(onset) => {
+                let times = nodes(NodeCount::Sixteen).x.map(|x| length * Map::FourthStart.at(x).0);
+                Some((Map::FourthStart, quantity.in_onset(onset, &times)?))
+            }
+            Dense::Taylor(_) | Dense::Flight => None,
+        }
     }
 
     /// The largest magnitude of an acceleration within a part of a step that is a power series, from its terms up to an x and
@@ -106,63 +153,36 @@ impl PeakFinder<'_> {
         floors.resisted[lane] + pushed.sum::<f64>()
     }
 
-    /// Evaluates a quantity and its slope at a time of a step.
-    fn read_step(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut PeakWork) -> Knot {
-        let ground = quantity.ground.later(time);
-        let (place, is_known, mut room) = work.peaks.readings.take(time);
-        if !is_known {
-            self.read_motion(ground, part, &mut room, work);
-        }
-        let ReadingRoom { q, v, acceleration, jerk, .. } = &room;
-        let (value, slope) = match quantity.of {
-            PeakOf::Acceleration(..) => {
-                (quantity.of_motion(acceleration) + ground.acceleration, quantity.of_motion(jerk) + ground.slope)
-            }
-            _ => {
-                let [added, rate] = quantity.added;
-                let value = (added + rate * time) + (quantity.of_motion(q) + quantity.of_rate(v));
-                (value, rate + (quantity.of_motion(v) + quantity.of_rate(acceleration)))
-            }
-        };
-        work.peaks.readings.put(place, room);
-        Knot { x: time, value, slope }
-    }
-
-    /// Evaluates the motion at the time of a room, its accelerations and their rates, from the equations of motion with the
-    /// ground's acceleration from there on.
-    fn read_motion(
-        &self,
-        ground: LinearGround,
-        part: &ContactStep,
-        ReadingRoom { time, q, v, acceleration, jerk }: &mut ReadingRoom,
-        work: &mut PeakWork,
-    ) {
+    /// A quantity at a time of a step, from the motion there: accelerations by the equations of motion, with the ground's
+    /// acceleration from there on.
+    fn read(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut PeakWork) -> f64 {
         let ContactStep { base, step, inputs, .. } = *part;
-        let (time, coordinates) = (*time, base.coordinates);
-        let mut pairs = std::mem::take(&mut work.peaks.pairs);
-        if time == 0.0 {
-            MotionMut { q, v }.copy_from(base.motion());
-            pairs.copy_from_slice(part.starts);
-        } else {
-            step.evaluate_with_pairs(self.system, time, &mut work.buffers.powers, MotionMut { q, v }, &mut pairs);
+        let (coordinates, ground) = (base.coordinates, quantity.ground.later(time));
+        let PeakRoom { pieces: [q, v, acceleration, _], pairs, .. } = &mut *work.peaks;
+        let is_acceleration = matches!(quantity.of, PeakOf::Acceleration(..));
+        let pairs = if is_acceleration { &mut pairs[..] } else { &mut [] };
+        step.evaluate_with_pairs(self.system, time, &mut work.buffers.powers, MotionMut { q, v }, pairs);
+        if !is_acceleration {
+            let [added, rate] = quantity.added;
+            return (added + rate * time) + (quantity.of_motion(q) + quantity.of_rate(v));
         }
-        let closed = || base.contacts.iter().zip(&pairs).enumerate().filter(|(_, (contact, _))| contact.in_contact());
-        for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
-            (acceleration[lane], jerk[lane]) = (-share * ground.acceleration, -share * ground.slope);
+        for (acceleration, share) in acceleration.iter_mut().zip(self.system.participation(coordinates)) {
+            *acceleration = -share * ground.acceleration;
         }
-        let at = base.elapsed + time;
-        self.system.add_pushes(inputs, coordinates, |push| push.after(base.segment.start, at), acceleration);
-        self.system.add_pushes(inputs, coordinates, LinearInput::slope, jerk);
+        let at = |push: &LinearInput| push.after(base.segment.start, base.elapsed + time);
+        self.system.add_pushes(inputs, coordinates, at, acceleration);
         self.system.resist(coordinates, q, v, 1.0, acceleration);
-        for (p, (contact, (d, rate))) in closed() {
-            self.system.push_apart_by(p, coordinates, contact.branch().value(*d, *rate), acceleration);
+        for (p, (contact, (d, rate))) in base.contacts.iter().zip(pairs).enumerate() {
+            if contact.in_contact() {
+                self.system.push_apart_by(p, coordinates, contact.branch().value(*d, *rate), acceleration);
+            }
         }
-        self.system.resist(coordinates, v, acceleration, 1.0, jerk);
-        for (p, (contact, (d, rate))) in closed() {
-            let bend = self.system.pairs[p].relative(coordinates, acceleration);
-            let rates = contact.branch().rates([*d, *rate, bend, 0.0]);
-            self.system.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
-        }
-        work.peaks.pairs = pairs;
+        quantity.of_motion(acceleration) + ground.acceleration
     }
+}
+
+/// The polynomial through values at nodes.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn interpolant(nodes: &Nodes, values: &AtNodes) -> Interpolant {
+    nodes.interpolant(values)
 }

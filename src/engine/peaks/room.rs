@@ -9,9 +9,6 @@ use crate::engine::quantities::span_rows::SpanRows;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{BuildingId, Interval, LANES, Structure};
 
-/// Number of motions of a window that are kept from the first on, and of the latest ones.
-const MOST_READ: usize = 4;
-
 /// Number of parts of flights that are kept prepared.
 const MOST_PARTS: usize = 32;
 
@@ -133,7 +130,8 @@ pub struct PeakRoom {
     pub within: FloorState,
     /// Those of which some quantity may exceed its peak.
     pub open_buildings: Vec<BuildingId>,
-    pub readings: Readings,
+    /// Whether the contact forces of the window at hand and their moments are in the buffers.
+    pub has_moments: bool,
     /// What may exceed its peak within a step in contact.
     pub open: Vec<OpenQuantity>,
     /// Bounds on the magnitudes of the contact forces over a step, N.
@@ -142,9 +140,7 @@ pub struct PeakRoom {
     pub first_forces: Vec<f64>,
     /// The contact forces at its end, N.
     pub last_forces: Vec<f64>,
-    /// Penetrations, m, and rates, m/s, at the start of a step.
-    pub starts: Vec<(f64, f64)>,
-    /// The same at a time within a step.
+    /// Penetrations, m, and rates, m/s, at a time within a step.
     pub pairs: Vec<(f64, f64)>,
 }
 
@@ -173,12 +169,11 @@ impl PeakRoom {
             floors: FloorRoom::new(lanes, buildings),
             within: FloorState::new(lanes, buildings),
             open_buildings: Vec::with_capacity(buildings),
-            readings: Readings::new(if rows.are_none() { 0 } else { lanes }),
+            has_moments: false,
             open: Vec::with_capacity(rows.blocks() * LANES),
             strongest: vec![0.0; pairs],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
-            starts: vec![(0.0, 0.0); pairs],
             pairs: vec![(0.0, 0.0); pairs],
         }
     }
@@ -301,61 +296,5 @@ impl FloorRoom {
     /// Notes the time of the end.
     pub fn keep(&mut self, time: [f64; 2]) {
         self.known = Some(time.map(f64::to_bits));
-    }
-}
-
-/// Motions of a step that have been read, for all quantities: those that are read first, and the latest.
-#[derive(Clone, Debug)]
-pub struct Readings {
-    kept: Vec<ReadingRoom>,
-    /// Number of motions that have been read, which may have replaced each other.
-    read: usize,
-}
-
-/// The motion at a time of a step.
-#[derive(Clone, Debug, Default)]
-pub struct ReadingRoom {
-    /// Time since the start of the step, s.
-    pub time: f64,
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub acceleration: Vec<f64>,
-    pub jerk: Vec<f64>,
-}
-
-impl Readings {
-    pub fn new(lanes: usize) -> Readings {
-        Readings { kept: vec![ReadingRoom::new(lanes); 2 * MOST_READ], read: 0 }
-    }
-
-    /// Forgets the motions: another step begins.
-    pub fn restart(&mut self) {
-        self.read = 0;
-    }
-
-    /// Takes the vectors of the motion at a time, s, to be given back; returns their place and whether that motion is known.
-    pub fn take(&mut self, time: f64) -> (usize, bool, ReadingRoom) {
-        let used = self.read.min(self.kept.len());
-        let known = self.kept[..used].iter().position(|kept| kept.time == time);
-        let place = known.unwrap_or_else(|| match self.read {
-            few if few < self.kept.len() => few,
-            many => MOST_READ + many % MOST_READ,
-        });
-        self.read += usize::from(known.is_none());
-        let mut room = std::mem::take(&mut self.kept[place]);
-        room.time = time;
-        (place, known.is_some(), room)
-    }
-
-    /// Gives them back.
-    pub fn put(&mut self, place: usize, room: ReadingRoom) {
-        self.kept[place] = room;
-    }
-}
-
-impl ReadingRoom {
-    pub fn new(lanes: usize) -> ReadingRoom {
-        let vector = || vec![0.0; lanes];
-        ReadingRoom { time: f64::NAN, q: vector(), v: vector(), acceleration: vector(), jerk: vector() }
     }
 }

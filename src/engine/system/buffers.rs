@@ -1,6 +1,7 @@
 //! Scratch vectors that all kinds of steps share; their content means nothing between calls, but for the load of the
 //! step that is being planned.
 
+use crate::collocation::AtNodes;
 use crate::engine::pairs::touching::Rounding;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
@@ -37,6 +38,8 @@ pub struct Buffers {
     pub account: WorkRoom,
     /// That energy since the start, J, while it is read.
     pub dashpot_sums: Vec<Sum>,
+    /// Contact forces of a window and their moments until its nodes.
+    pub moments: Vec<AtNodes>,
     /// Powers of the point at which a series is evaluated.
     pub powers: Powers,
     /// The problem of the reactions or impulses of rigid pairs.
@@ -70,6 +73,7 @@ impl Buffers {
             node_v: vector(),
             dashpot_sums: Vec::with_capacity(structure.links.len()),
             account: WorkRoom::new(structure),
+            moments: Vec::new(),
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
             rounding: Vec::with_capacity(rigid),

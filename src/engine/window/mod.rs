@@ -9,6 +9,7 @@ pub mod certificate;
 pub mod elastic;
 pub mod follow;
 pub mod kernels;
+pub mod quantity;
 pub mod solution;
 pub mod spring;
 pub mod trial;

@@ -2,7 +2,6 @@
 
 use crate::collocation::{
     AtNodes, Equation, Kernel, MOST_PAIRS, NODES, NodeCount, Nodes, POWERS, SolvedWindow, Tables, dot, fours, nodes,
-    product, row,
 };
 use crate::engine::base::contact::Contact;
 use crate::engine::follow::NEARLY;
@@ -65,17 +64,6 @@ impl Window {
     pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> + use<> {
         let part = self.part(elapsed, NodeCount::Sixteen);
         part.times.into_iter().zip(part.weights)
-    }
-
-    /// The moments until each node of the quadrature over the whole window.
-    pub fn moments_at_nodes(&self) -> [Moments; NODES] {
-        let mut all = [Moments::default(); NODES];
-        for (place, force) in self.solution.force.iter().enumerate().take(self.equation.closed) {
-            weigh_at_nodes(&self.solution, force, self.equation.powers, |node, power, moment| {
-                all[node][place][power] = moment;
-            });
-        }
-        all
     }
 
     /// Works out the moments over the whole window and the bounds on the forces, once a solution has been found.
@@ -152,26 +140,6 @@ fn weigh_whole(whole: &[AtNodes], force: &AtNodes, length: f64, moments: &mut [f
     let mut power = length;
     for (moment, whole) in moments.iter_mut().zip(whole) {
         *moment = power * dot(whole, force);
-        power *= length;
-    }
-}
-
-/// The moments of one force until each of sixteen nodes: through its values goes one polynomial, whatever their number.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn weigh_at_nodes(
-    &SolvedWindow { map, rule, length, .. }: &SolvedWindow,
-    force: &AtNodes,
-    powers: usize,
-    mut enter: impl FnMut(usize, usize, f64),
-) {
-    let force = match rule {
-        NodeCount::Sixteen => *force,
-        _ => nodes(rule).interpolant(force).at(&nodes(NodeCount::Sixteen).x),
-    };
-    let mut power = length;
-    for (k, inner) in Tables::of(map, NodeCount::Sixteen).inner.iter().enumerate().take(powers) {
-        let moments = row(&product::<NODES>(inner, &force));
-        moments.iter().enumerate().for_each(|(node, moment)| enter(node, k, power * moment));
         power *= length;
     }
 }
