@@ -185,16 +185,23 @@ impl Interpolant {
     /// Value and slope at x.
     #[inline(always)]
     pub(crate) fn knot(&self, x: f64) -> Knot {
+        let [knot] = Interpolant::knots([self], x);
+        knot
+    }
+
+    /// The same of some polynomials through the same nodes.
+    #[inline(always)]
+    pub(crate) fn knots<const K: usize>(all: [&Interpolant; K], x: f64) -> [Knot; K] {
         let z = 2.0 * x - 1.0;
-        let (mut last, mut before, mut sum) = ([1.0, 0.0], [0.0; 2], [0.0; 2]);
-        for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {
-            let products = [z * last[0], z * last[1] + 2.0 * last[0]];
-            for i in 0..2 {
-                sum[i] += c * last[i];
-                let next = rising * products[i] - falling * before[i];
-                (before[i], last[i]) = (last[i], next);
+        let (mut last, mut before, mut sums) = ([1.0, 0.0], [0.0; 2], [[0.0; 2]; K]);
+        for (n, (rising, falling)) in RECURRENCE.iter().enumerate().take(all[0].count) {
+            for (sum, of) in sums.iter_mut().zip(&all) {
+                *sum = std::array::from_fn(|i| sum[i] + of.legendre[n] * last[i]);
             }
+            let products = [z * last[0], z * last[1] + 2.0 * last[0]];
+            let next = std::array::from_fn(|i| rising * products[i] - falling * before[i]);
+            (before, last) = (last, next);
         }
-        Knot { x, value: sum[0], slope: sum[1] }
+        sums.map(|[value, slope]| Knot { x, value, slope })
     }
 }

@@ -97,7 +97,8 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
 #[inline(always)]
 fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
-    for (row, term) in row.iter().zip(term) {
+    // Equal lengths: where that of the term is constant, so is that of the loop.
+    for (row, term) in row[..term.len()].iter().zip(term) {
         for i in 0..LANES {
             sum[i] += row[i] * term[i];
         }
@@ -108,6 +109,7 @@ fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
 /// Subtracts row times force from the modal accelerations in `term`.
 #[inline(always)]
 fn push_blocks(row: &[Lane], force: f64, term: &mut [Lane]) {
+    let row = &row[..term.len()];
     for (term, row) in term.iter_mut().zip(row) {
         let before = *term;
         *term = each(|i| before[i] - row[i] * force);

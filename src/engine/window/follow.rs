@@ -1,6 +1,6 @@
 //! The course of a contact through a window.
 
-use crate::collocation::{Interpolant, NODES, SolvedWindow, Tables, nodes};
+use crate::collocation::{AtNodes, Interpolant, NODES, Nodes as RuleNodes, SolvedWindow, Tables, nodes};
 use crate::engine::base::contact::Contact;
 use crate::engine::follow::{Course, NEARLY, Nodes, Reached};
 use crate::engine::window::solution::{Window, largest};
@@ -48,7 +48,7 @@ impl Course<NODES> for WindowCourse<'_> {
         let SolvedWindow { map, rule, length, ref depth, ref rate, .. } = self.window.solution;
         let x = map.inverse(time / length);
         let [depth, rate] =
-            self.interpolants.get_or_init(|| [depth, rate].map(|row| nodes(rule).interpolant(&row[self.place])));
+            self.interpolants.get_or_init(|| interpolants(nodes(rule), [depth, rate].map(|rows| &rows[self.place])));
         read([depth, rate], x, length * map.at(x).1, self.window.equation.by_rates())
     }
 
@@ -80,13 +80,19 @@ impl Course<NODES> for WindowCourse<'_> {
     }
 }
 
+/// The polynomials through two rows of values.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn interpolants(nodes: &RuleNodes, rows: [&AtNodes; 2]) -> [Interpolant; 2] {
+    rows.map(|row| nodes.interpolant(row))
+}
+
 /// Penetration, rate and acceleration at x, where x passes by 1 in `per_x` seconds.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read([depth, rate]: [&Interpolant; 2], x: f64, per_x: f64, is_damped: bool) -> [f64; 3] {
-    let depth = depth.knot(x);
     if !is_damped {
+        let depth = depth.knot(x);
         return [depth.value, depth.slope / per_x, 0.0];
     }
-    let rate = rate.knot(x);
+    let [depth, rate] = Interpolant::knots([depth, rate], x);
     [depth.value, rate.value, rate.slope / per_x]
 }

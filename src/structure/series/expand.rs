@@ -177,10 +177,27 @@ fn expand_modes<F: PairForces>(
     series: &mut MotionSeries,
     structure: &Structure,
     order: usize,
+    loads: LinearLoad,
+    forces: &mut F,
+) {
+    match series.lanes / LANES {
+        1 => expand_blocks::<1, F>(series, structure, order, loads, forces),
+        2 => expand_blocks::<2, F>(series, structure, order, loads, forces),
+        _ => expand_blocks::<0, F>(series, structure, order, loads, forces),
+    }
+}
+
+/// The same for `N` blocks of modes, or for any number of blocks where N is 0.
+#[inline(always)]
+fn expand_blocks<const N: usize, F: PairForces>(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    order: usize,
     LinearLoad { load, slope }: LinearLoad,
     forces: &mut F,
 ) {
-    let (width, scale, is_coupled) = (series.lanes / LANES, series.scale, !structure.is_classical());
+    let (scale, is_coupled) = (series.scale, !structure.is_classical());
+    let width = if N > 0 { N } else { series.lanes / LANES };
     let vectors = [&structure.damping, &structure.omega2, load, slope];
     let [damping, omega2, load, slope] = vectors.map(|of| &of.as_chunks::<LANES>().0[..width]);
     let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
