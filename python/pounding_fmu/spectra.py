@@ -72,8 +72,10 @@ def starts(line: Line, lengths: Numbers) -> Complex:
     """y at the beginning of each segment, from rest."""
     decays = np.exp(line.root * lengths)
     gains = line.rest * (1 - decays) + line.drift * lengths
-    y, found = 0j, []
-    for decay, gain in zip(decays.tolist(), gains.tolist()):
-        found.append(y)
-        y = decay * y + gain
-    return np.array(found)
+    # What comes after one segment, after two, four and so on: decay and gain of neighbours put together.
+    reach = 1
+    while reach < len(gains):
+        gains[reach:] += decays[reach:] * gains[:-reach]
+        decays[reach:] *= decays[:-reach]
+        reach *= 2
+    return np.append(0j, gains[:-1])

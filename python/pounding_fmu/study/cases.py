@@ -24,11 +24,19 @@ if TYPE_CHECKING:
 Row = dict[str, Any]
 Motion = tuple["NDArray[np.float64]", "NDArray[np.float64]"]  # s and m/s2
 
+
+def largest(columns: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """The largest number of each row."""
+    import numpy as np
+
+    return functools.reduce(np.maximum, columns)
+
+
 SIDES = ("left", "right")  # both have columns, also where one building stands alone
 NEVER_CLOSES = 1e3  # m, the gap of the runs without contact
 # Columns by what they are made of: outputs of all contacts, and of the storeys or floors of a building.
-OF_CONTACTS: dict[str, tuple[str, Callable[[Any], float]]] = {
-    "peak_force_n": ("peak_force", max),
+OF_CONTACTS: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "peak_force_n": ("peak_force", largest),
     "impulse_n_s": ("impulse", sum),
     "dissipated_energy_j": ("dissipated_energy", sum),
 }
@@ -139,42 +147,47 @@ class Readings:
         pattern = re.compile(begin + re.escape(dot + rest).replace(r"\*", r"\d+"))
         return [variable for variable in self.names if pattern.fullmatch(variable)]
 
-    def row(self, values: Sequence[float]) -> Row:
-        """The results of a case of the values of the outputs at its end."""
-        value = dict(zip(self.outputs, values, strict=True))
-        row: Row = {"impacts": int(value["impacts"])}
+    def rows(self, ends: NDArray[np.float64]) -> list[Row]:
+        """The results of cases, of the values of the outputs at the end of each."""
+        value = dict(zip(self.outputs, ends.T, strict=True))
+        columns: dict[str, Any] = {"impacts": value["impacts"].astype(int)}
         for column, (what, summary) in OF_CONTACTS.items():
-            row[column] = summary(value[name] for name in self.contacts[what])
+            columns[column] = summary([value[name] for name in self.contacts[what]])
         for column, what in OF_LINKS.items():
-            row |= {f"{LINK}_{column}[{i}]": value[name] for i, name in self.links[what].items()}
-        row |= {column: value[name] for column, name in self.foundations.items()}
-        row |= self.row_of_contacts(value)
+            columns |= {f"{LINK}_{column}[{i}]": value[name] for i, name in self.links[what].items()}
+        columns |= {column: value[name] for column, name in self.foundations.items()}
+        columns |= self.columns_of_contacts(value)
         for side in self.sides:
-            row[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
+            columns[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
             of_side = {
                 what: {i: value[name] for i, name in self.storeys[side, what].items()}
                 for what in [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
             }
             peaks = {column: of_side[what] for column, what in OF_STOREYS.items()}
             peaks["storey_shear_n"] = storey_shears(of_side)
-            row |= {f"{side}_{column}[{i}]": peak for column, of in peaks.items() for i, peak in of.items()}
+            columns |= {f"{side}_{column}[{i}]": peak for column, of in peaks.items() for i, peak in of.items()}
             peaks |= {column: of_side[what] for column, what in OF_YIELDING.items()}
-            row |= {f"{side}_{column}": max(map(abs, of.values())) for column, of in peaks.items() if of}
-        return row | {f"{side}_collapsed": int(value[name]) for side, name in self.collapses.items()}
+            columns |= {f"{side}_{column}": largest([*map(abs, of.values())]) for column, of in peaks.items() if of}
+        columns |= {f"{side}_collapsed": value[name].astype(int) for side, name in self.collapses.items()}
+        return [dict(zip(columns, row)) for row in zip(*(column.tolist() for column in columns.values()))]
 
-
-    def row_of_contacts(self, value: Mapping[str, float]) -> Row:
+    def columns_of_contacts(self, value: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
         """Of each contact of a row of buildings, and which was hit hardest: the force of rigid contacts says nothing, so without
-        others it is the impulse."""
-        row: Row = {}
+        others it is the impulse. No one was where none was hit."""
+        import numpy as np
+
+        if not self.each_contact["impacts"]:
+            return {}
+        columns: dict[str, Any] = {}
         for column, what in OF_EACH_CONTACT.items():
             kind = int if what == "impacts" else float
-            row |= {f"{CONTACT}_{column}[{p}]": kind(value[name]) for p, name in self.each_contact[what].items()}
-        for what in ("peak_force", "impulse"):
-            found = {p: value[name] for p, name in self.each_contact[what].items()}
-            if any(found.values()):
-                return row | {HARDEST: max(found, key=found.__getitem__)}
-        return row
+            columns |= {f"{CONTACT}_{column}[{p}]": value[name].astype(kind) for p, name in self.each_contact[what].items()}
+        hardest = np.full(len(value["impacts"]), None)
+        for what in ("impulse", "peak_force"):
+            found = np.array([value[name] for name in self.each_contact[what].values()])
+            hit = found.any(axis=0)
+            hardest[hit] = np.array([*self.each_contact[what]], object)[found.argmax(axis=0)[hit]]
+        return columns | {HARDEST: hardest}
 
 
 def collapsed(row: Row) -> bool:
@@ -218,14 +231,16 @@ def _of_contacts(names: Sequence[str], what: str) -> list[str]:
     return [name for name in names if name.startswith("contact[") and name.endswith(f"].{what}")]
 
 
-def storey_shears(of_side: Mapping[str, Mapping[int, float]]) -> dict[int, float]:
+def storey_shears(of_side: Mapping[str, Mapping[int, NDArray[np.float64]]]) -> dict[int, NDArray[np.float64]]:
     """N, the largest shear of each storey of a shear building, without damping: stiffness times the largest drift d, or,
     where the storey can yield, V = r k d + (1 - r) V_y beyond its yield drift, on which it is at that drift."""
+    import numpy as np
+
     shears = {}
     for i, stiffness in of_side["stiffness"].items():
         elastic, ratio = stiffness * of_side["peak_drift"][i], of_side["post_yield_ratio"].get(i, 0.0)
         strength = of_side["yield_force"].get(i)
-        shears[i] = elastic if strength is None else min(elastic, ratio * elastic + (1 - ratio) * strength)
+        shears[i] = elastic if strength is None else np.minimum(elastic, ratio * elastic + (1 - ratio) * strength)
     return shears
 
 
@@ -286,9 +301,8 @@ def _run(
         if len(cases) == 1:
             return [failed(str(error).removeprefix("case 0: "))]
         return [_run(scene, [case], records, stop, threads, None)[0] for case in cases]
-    return [
-        failed(failures[i]) if i in failures else {**read.row(end), "error": ""} for i, end in enumerate(ends.tolist())
-    ]
+    done = iter(read.rows(ends[[i not in failures for i in range(len(cases))]]))
+    return [failed(failures[i]) if i in failures else {**next(done), "error": ""} for i in range(len(cases))]
 
 
 def failed(text: str) -> Row:
