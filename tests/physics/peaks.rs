@@ -296,6 +296,20 @@ fn peaks_within_steps_in_a_time_map_are_those_of_a_dense_reading() {
     }
 }
 
+/// The drift of one storey is largest just after another floor has been met, within the first step of that contact.
+#[test]
+fn a_peak_just_after_an_entry_is_that_of_a_dense_reading() {
+    let buildings = frame("left", 10, 1e3, 14.0, 0.01) + &frame("right", 9, 2e3, 5.0, 0.01);
+    let buildings = buildings.replace("{ ratio = 0.01 }", "{ rayleigh = { ratio = 0.01, modes = [1, 2] } }");
+    let pair = |floor: usize| {
+        format!(
+            "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.018\nlaw = \"hertz\"\nstiffness = 1e6\n"
+        )
+    };
+    let text = format!("name = \"Entry\"\n{buildings}{}", (1..=9).map(pair).collect::<String>());
+    compare("just after an entry", &with_record(&text), Some(&shaking(0.02, 100, 6.0)), 2.5, 20_000);
+}
+
 #[test]
 fn stiff_slow_and_coupled_buildings_have_the_peaks_of_a_dense_reading() {
     let record = shaking(0.02, 100, 5.0);
