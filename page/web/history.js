@@ -1,27 +1,34 @@
 // Undo and redo of the scene's text, for what is typed and what handles write alike. What follows quickly upon its
-// like is one step: letters of a word, positions of a slider.
+// like is one step: letters of a word, positions of a slider; so are all positions of one that is held.
 
 const TOGETHER = 900;
 const JOINING = ["typing", "gap", "strength"];
 const MOST = 300;
 const MOST_TEXT = 2e7;
 
+// The number of the times that a pointer has been put down, 0 while none is.
+let holds = 0;
+let held = 0;
+addEventListener("pointerdown", () => (held = ++holds), true);
+for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (held = 0), true);
+
 export class History {
   constructor(text) {
     this.steps = [{ text, caret: 0 }];
     this.at = 0;
-    this.last = { kind: "", when: 0 };
+    this.last = { kind: "", when: 0, held: 0 };
   }
 
   add(text, caret, kind) {
     if (text === this.steps[this.at].text) return;
     const now = performance.now();
-    const joins = JOINING.includes(kind) && kind === this.last.kind && now - this.last.when < TOGETHER && this.at > 0;
+    const follows = now - this.last.when < TOGETHER || (held > 0 && held === this.last.held);
+    const joins = JOINING.includes(kind) && kind === this.last.kind && follows && this.at > 0;
     this.steps.length = joins ? this.at : this.at + 1;
     this.steps.push({ text, caret });
     while (this.steps.length > MOST || (this.steps.length > 2 && this.#size() > MOST_TEXT)) this.steps.shift();
     this.at = this.steps.length - 1;
-    this.last = { kind, when: now };
+    this.last = { kind, when: now, held };
   }
 
   #size() {
@@ -32,7 +39,7 @@ export class History {
   go(by) {
     if (!this.can(by)) return null;
     this.at += by;
-    this.last = { kind: "", when: 0 };
+    this.last = { kind: "", when: 0, held: 0 };
     return this.steps[this.at];
   }
 

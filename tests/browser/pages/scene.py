@@ -125,13 +125,9 @@ def follows_a_handle_while_it_is_dragged(browser):
             page.wait_for_timeout(40)
             seen.add(page.locator("#happened").inner_text().split()[0])
         assert len(seen) > 8, seen
-        # To and fro until a busy machine has computed it: a pause would part the way in two steps back.
-        for step in range(400):
-            page.mouse.move(at(0.12 - 0.002 * (step % 2)), box["y"] + box["height"] / 2)
-            page.wait_for_timeout(50)
-            if page.locator("#happened").inner_text().startswith("0 impacts"):
-                break
         says(page, "^0 impacts")
+        # However long it is held there.
+        page.wait_for_timeout(1200)
         # And back to where it was, in one go.
         page.mouse.move(at(0.005), box["y"] + box["height"] / 2)
         page.mouse.up()
