@@ -8,27 +8,27 @@ const MOST_TEXT = 2e7;
 
 // The number of the times that a pointer has been put down, 0 while none is.
 let holds = 0;
-let held = 0;
-addEventListener("pointerdown", () => (held = ++holds), true);
-for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (held = 0), true);
+let pressed = 0;
+addEventListener("pointerdown", () => (pressed = ++holds), true);
+for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (pressed = 0), true);
 
 export class History {
   constructor(text) {
     this.steps = [{ text, caret: 0 }];
     this.at = 0;
-    this.last = { kind: "", when: 0, held: 0 };
+    this.last = { kind: "", when: 0, pressed: 0 };
   }
 
   add(text, caret, kind) {
     if (text === this.steps[this.at].text) return;
     const now = performance.now();
-    const follows = now - this.last.when < TOGETHER || (held > 0 && held === this.last.held);
+    const follows = now - this.last.when < TOGETHER || (pressed > 0 && pressed === this.last.pressed);
     const joins = JOINING.includes(kind) && kind === this.last.kind && follows && this.at > 0;
     this.steps.length = joins ? this.at : this.at + 1;
     this.steps.push({ text, caret });
     while (this.steps.length > MOST || (this.steps.length > 2 && this.#size() > MOST_TEXT)) this.steps.shift();
     this.at = this.steps.length - 1;
-    this.last = { kind, when: now, held };
+    this.last = { kind, when: now, pressed };
   }
 
   #size() {
@@ -39,7 +39,7 @@ export class History {
   go(by) {
     if (!this.can(by)) return null;
     this.at += by;
-    this.last = { kind: "", when: 0, held: 0 };
+    this.last = { kind: "", when: 0, pressed: 0 };
     return this.steps[this.at];
   }
 
