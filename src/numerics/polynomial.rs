@@ -67,6 +67,12 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
+/// The smaller of two numbers in the same way.
+#[inline(always)]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
 /// The largest of some numbers, or 0; a NaN is passed over.
 #[inline(always)]
 pub(crate) fn largest(all: &[f64]) -> f64 {

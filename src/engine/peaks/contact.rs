@@ -25,6 +25,9 @@ const TRUSTED: f64 = 1e-6;
 /// The same with which the series tells the value too.
 const EXACT: f64 = 1e-11;
 
+/// Largest number of quantities that are searched at once: the bounds of a series, which leave fewer, cost as much.
+const FEW: u64 = 6;
+
 impl PeakFinder<'_> {
     /// Notes the forces of the contacts at the start of a step.
     pub(in crate::engine) fn note_first_forces(&self, contacts: &[Contact], work: &mut PeakWork) {
@@ -127,26 +130,29 @@ impl PeakFinder<'_> {
         }
         let mut open = std::mem::take(&mut work.peaks.open_buildings);
         open.clear();
+        let mut count = 0;
         for id in self.system.structure.ids() {
-            let is_open = self.bound_building(id, (part.length, false), peaks, &mut work.peaks.floors);
-            open.extend(is_open.then_some(id));
+            let above = self.bound_building(id, (part.length, false), peaks, &mut work.peaks.floors);
+            open.extend((above > 0).then_some(id));
+            count += above;
         }
         let are_links_open = self.links_may_exceed(part, peaks, work);
+        let has_series = (are_links_open || count > FEW) && self.bound_by_series(part, work);
         if !open.is_empty() || are_links_open {
-            self.look_closer((&open, are_links_open), part, peaks, work);
+            self.note_open_of((&open, are_links_open), has_series, part, peaks, work);
         }
         work.peaks.open_buildings = open;
     }
 
-    /// Notes what may exceed its peak by the bounds of a series, where there is one: of some buildings, and of the links.
-    fn look_closer(
+    /// Notes what may exceed its peak, of some buildings and of the links: by the bounds of a series where the step has one.
+    fn note_open_of(
         &self,
         (open, are_links_open): (&[BuildingId], bool),
+        has_series: bool,
         part: &ContactStep,
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let has_series = self.bound_by_series(part, work);
         let is_wanted = |id: &BuildingId| has_series && (are_links_open || open.contains(id));
         for id in self.system.structure.ids().filter(is_wanted) {
             self.bound_building_by_series(id, part, &mut work.peaks.floors);

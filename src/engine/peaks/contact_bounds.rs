@@ -3,7 +3,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::chord::{add_larger, bound_by_deviation, bound_by_motion, bound_by_push, set_largest};
+use crate::engine::bounds::chord::{bound_by_deviation, bound_by_motion, bound_by_push, lower, set_largest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakWork};
@@ -16,14 +16,14 @@ use crate::structure::{BuildingId, MotionSeries};
 
 impl PeakFinder<'_> {
     /// Raises the peaks of a building to the values at both ends of a step of `h` seconds, and bounds its floors in between;
-    /// returns whether any peak may be exceeded.
+    /// returns how many peaks may be exceeded.
     pub(super) fn bound_building(
         &self,
         id: BuildingId,
         (h, has_series): (f64, bool),
         peaks: &mut Peaks,
         room: &mut FloorRoom,
-    ) -> bool {
+    ) -> u64 {
         let lanes = self.system.structure.floors.lanes_of(id);
         let of_peaks = [PeakOf::Displacement(id, 0), PeakOf::Drift(id, 0), PeakOf::Acceleration(id, 0)].map(|of| {
             let first = self.watched.rows.place(of);
@@ -35,23 +35,22 @@ impl PeakFinder<'_> {
         } = room;
         let [moved, drifted, pushed] = upper.each_mut().map(|upper| &mut upper[lanes.clone()]);
         let motion = [&start.u, &end.u, &start.v, &end.v, largest].map(|of| &of[lanes.clone()]);
-        let are_moved_below = bound_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
+        let moved_above = bound_by_motion(motion, h, &mut peaks.values[of_displacements], moved);
         let motion =
             [&start.drift, &end.drift, &start.drifting, &end.drifting, largest_of_drifts].map(|of| &of[lanes.clone()]);
-        let are_drifted_below = bound_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
+        let drifted_above = bound_by_motion(motion, h, &mut peaks.values[of_drifts], drifted);
         let ends = [&start.resisted, &end.resisted, first, last].map(|of| &of[lanes.clone()]);
         let [least, most, strays] = [least, most, strays].map(|of| &of[lanes.clone()]);
-        let are_pushed_below = match has_series {
+        let pushed_above = match has_series {
             true => bound_by_deviation(ends, strays, &mut peaks.values[of_accelerations], pushed),
             false => bound_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
         };
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(id))];
         // Written so that a NaN is never below anything.
-        let are_floors_below = are_moved_below && are_drifted_below && are_pushed_below;
-        let are_storeys_below = self
-            .bound_storey_shears(id, h, room)
-            .all(|((of, upper), _)| upper <= peaks.values[self.watched.rows.place(of)]);
-        !(are_floors_below && are_storeys_below && self.bound_shear(id, h, room).1 <= shear)
+        let storeys = self.bound_storey_shears(id, h, room);
+        let storeys_above = storeys.filter(|((of, upper), _)| !(*upper <= peaks.values[self.watched.rows.place(*of)]));
+        let of_shears = storeys_above.count() as u64 + u64::from(!(self.bound_shear(id, h, room).1 <= shear));
+        moved_above + drifted_above + pushed_above + of_shears
     }
 
     /// For each storey of a building that can be corrected a bound on the magnitude of its shear over a step, and the
@@ -123,8 +122,8 @@ impl PeakFinder<'_> {
         true
     }
 
-    /// Works out upper bounds on the accelerations of the floors relative to the ground and to each other, from those at
-    /// both ends and the deviations in between.
+    /// Lowers upper bounds on the accelerations of the floors relative to the ground and to each other, by those at both ends and
+    /// the deviations in between.
     pub(super) fn bound_building_by_series(&self, id: BuildingId, part: &ContactStep, room: &mut FloorRoom) {
         let floors = &self.system.structure.floors;
         let lanes = floors.lanes_with_foundation(id);
@@ -137,6 +136,7 @@ impl PeakFinder<'_> {
             drift_accelerations,
             largest,
             largest_of_drifts,
+            drift_strays,
             ..
         } = room;
         let ground = part.base.ground();
@@ -151,12 +151,16 @@ impl PeakFinder<'_> {
             }
             floors.set_drifts(id, &accelerations[k], &mut drift_accelerations[k]);
         }
-        floors.bound_drifts(id, strays, largest_of_drifts);
+        floors.bound_drifts(id, strays, drift_strays);
         let of_floors = floors.lanes_of(id);
-        largest[lanes.clone()].copy_from_slice(&strays[lanes.clone()]);
-        add_larger(accelerations.each_ref().map(|of| &of[lanes.clone()]), &mut largest[lanes.clone()]);
-        add_larger(
+        lower(
+            accelerations.each_ref().map(|of| &of[lanes.clone()]),
+            &strays[lanes.clone()],
+            &mut largest[lanes.clone()],
+        );
+        lower(
             drift_accelerations.each_ref().map(|of| &of[of_floors.clone()]),
+            &drift_strays[of_floors.clone()],
             &mut largest_of_drifts[of_floors.clone()],
         );
     }

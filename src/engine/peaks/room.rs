@@ -251,6 +251,8 @@ pub struct FloorRoom {
     pub drift_accelerations: [Vec<f64>; 2],
     /// Bounds on the deviation of r from its chord, m/s2.
     pub strays: Vec<f64>,
+    /// The same of the accelerations relative to the floor below.
+    pub drift_strays: Vec<f64>,
     /// Upper bounds on the magnitudes of displacement, drift and acceleration of each floor.
     pub upper: [Vec<f64>; 3],
     /// Scratch vector on modes.
@@ -273,6 +275,7 @@ impl FloorRoom {
             accelerations: [vector(), vector()],
             drift_accelerations: [vector(), vector()],
             strays: vector(),
+            drift_strays: vector(),
             upper: [vector(), vector(), vector()],
             modal: vector(),
             known: None,
