@@ -5,7 +5,7 @@
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
 //! are needed: flights are logged (`flight/log.rs`) and read many at once ([`fold`]). In contact the largest
 //! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
-//! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
+//! maximum is searched for: in the power series of the step ([`search`]), or from its nodes where it has no
 //! series in time ([`reading`]).
 //!
 //! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
