@@ -7,7 +7,7 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::pairs::row::FloorShare;
 use crate::engine::peaks::PeakFinder;
-use crate::engine::peaks::quantity::{Quantity, highest};
+use crate::engine::peaks::quantity::{Quantity, highest_by};
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, FloorState, OpenQuantity, PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
@@ -311,7 +311,11 @@ impl PeakFinder<'_> {
                     PeakOf::Acceleration(..) if off.abs() > EXACT * largest => {
                         self.highest_acceleration(of, (&terms, end, order), known, part, work)
                     }
-                    _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
+                    _ => {
+                        // The values at both ends are known, without the last digits of the series there.
+                        let within = |at, value| if at > 0.0 && at < end { value } else { known };
+                        highest_by(&terms, (end, order), known, &mut work.buffers.powers, within)
+                    }
                 }
             }
             _ => self.highest_by_nodes(&quantity, known, part, work),
