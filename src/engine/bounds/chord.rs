@@ -96,8 +96,8 @@ pub fn lower([start, end]: [&[f64]; 2], strays: &[f64], bounds: &mut [f64]) {
     }
 }
 
-/// 1 where a bound is above its peak or no number.
+/// 1 where a bound is above its peak or no number, else 0.
 #[inline(always)]
-fn above(upper: f64, peak: f64) -> u64 {
-    u64::from(!(upper <= peak))
+pub fn above(upper: f64, peak: f64) -> u64 {
+    1 - u64::from(upper <= peak)
 }

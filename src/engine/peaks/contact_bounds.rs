@@ -3,7 +3,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::chord::{bound_by_deviation, bound_by_motion, bound_by_push, lower, set_largest};
+use crate::engine::bounds::chord::{above, bound_by_deviation, bound_by_motion, bound_by_push, lower, set_largest};
 use crate::engine::peaks::PeakFinder;
 use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::room::{FloorRoom, PeakWork};
@@ -46,10 +46,9 @@ impl PeakFinder<'_> {
             false => bound_by_push(ends, [least, most, strays], &mut peaks.values[of_accelerations], pushed),
         };
         let shear = peaks.values[self.watched.rows.place(PeakOf::BaseShear(id))];
-        // Written so that a NaN is never below anything.
         let storeys = self.bound_storey_shears(id, h, room);
-        let storeys_above = storeys.filter(|((of, upper), _)| !(*upper <= peaks.values[self.watched.rows.place(*of)]));
-        let of_shears = storeys_above.count() as u64 + u64::from(!(self.bound_shear(id, h, room).1 <= shear));
+        let storeys_above = storeys.map(|((of, upper), _)| above(upper, peaks.values[self.watched.rows.place(of)]));
+        let of_shears = storeys_above.sum::<u64>() + above(self.bound_shear(id, h, room).1, shear);
         moved_above + drifted_above + pushed_above + of_shears
     }
 

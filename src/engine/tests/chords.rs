@@ -66,7 +66,7 @@ fn nothing_exceeds_its_peak_by_more_than_chords_say() {
         let [start, end, rate, end_rate, bent] =
             [ends[0], ends[1], curve.slope(0.0), curve.slope(h), curve.most_bent()].map(|number| [number]);
         let open = bound_by_motion([&start, &end, &rate, &end_rate, &bent], h, &mut peak, &mut upper);
-        assert_eq!(open, u64::from(!(upper[0] <= peak[0])));
+        assert_eq!(open == 0, upper[0] <= peak[0]);
         assert_eq!(peak[0], known.max(ends[0].abs()).max(ends[1].abs()));
         let reached = largest(times(h).map(|t| curve.value(t)));
         let size = bent[0] * h * h + curve.top.abs();
@@ -107,7 +107,7 @@ fn no_acceleration_exceeds_its_peak_by_more_than_chords_say() {
             true => bound_by_deviation(at_ends, &stray, &mut peak, &mut upper),
             false => bound_by_push(at_ends, [&least, &most, &stray], &mut peak, &mut upper),
         };
-        assert_eq!(open, u64::from(!(upper[0] <= peak[0])));
+        assert_eq!(open == 0, upper[0] <= peak[0]);
         let push = |t: f64| match t {
             _ if has_series => 0.0,
             0.0 => first[0],
