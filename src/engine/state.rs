@@ -1,6 +1,6 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
-use crate::collocation::WindowWorkspace;
+use crate::collocation::{MOST_PAIRS, WindowWorkspace};
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
@@ -200,7 +200,8 @@ impl Workspace {
 impl Model {
     /// Scratch vectors for this model.
     pub(in crate::engine) fn buffers(&self) -> Buffers {
-        Buffers::new(&self.system.structure, self.system.rigid.pairs.len())
+        let in_windows = if self.windows.is_ok() { self.system.pairs.len().min(MOST_PAIRS) } else { 0 };
+        Buffers::new(&self.system.structure, self.system.rigid.pairs.len(), in_windows)
     }
 
     /// The initial state at a time, s, with all inputs 0.

@@ -1,7 +1,7 @@
 //! Scratch vectors that all kinds of steps share; their content means nothing between calls, but for the load of the
 //! step that is being planned.
 
-use crate::collocation::AtNodes;
+use crate::collocation::{AtNodes, POWERS};
 use crate::engine::pairs::touching::Rounding;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
@@ -56,8 +56,8 @@ impl Buffers {
         LinearLoad { load: &self.load, slope: &self.slope }
     }
 
-    /// Allocates for a structure with that many rigid pairs.
-    pub fn new(structure: &Structure, rigid: usize) -> Buffers {
+    /// Allocates for a structure with that many rigid pairs, and windows with so many closed ones at most.
+    pub fn new(structure: &Structure, rigid: usize, in_windows: usize) -> Buffers {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Buffers {
@@ -73,7 +73,7 @@ impl Buffers {
             node_v: vector(),
             dashpot_sums: Vec::with_capacity(structure.links.len()),
             account: WorkRoom::new(structure),
-            moments: Vec::new(),
+            moments: Vec::with_capacity(in_windows * (1 + POWERS)),
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
             rounding: Vec::with_capacity(rigid),

@@ -176,7 +176,7 @@ impl Case {
         let record = Record::new(times, samples);
         let system = System::of(&scene, Some(&record)).unwrap();
         let mut base = system.start(0.0, Peaks::default(), None);
-        let mut work = Buffers::new(&system.structure, system.rigid.pairs.len());
+        let mut work = Buffers::new(&system.structure, system.rigid.pairs.len(), 0);
         system.convert_to_flight(&mut base, [&mut work.q, &mut work.v]);
         Case { system, base, work }
     }
