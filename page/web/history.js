@@ -6,7 +6,7 @@ const JOINING = ["typing", "gap", "strength"];
 const MOST = 300;
 const MOST_TEXT = 2e7;
 
-// The number of the times that a pointer has been put down, 0 while none is.
+// How often a pointer has been put down, and which of these times is going on: 0 while none is down.
 let holds = 0;
 let pressed = 0;
 addEventListener("pointerdown", () => (pressed = ++holds), true);

@@ -7,7 +7,6 @@ take a file name for a formula; whoever reads the table takes one apostrophe awa
 from __future__ import annotations
 
 import csv
-import functools
 import io
 import itertools
 import math
@@ -168,7 +167,6 @@ class Reader:
     def __init__(self, known: Mapping[str, Kind]) -> None:
         self.known = known
         self.sides = sides_of(dict.fromkeys(known))
-        self.always = functools.lru_cache(lambda *sides: list(always(sides or self.sides)))
         self.of_side = {side: [name for name in of_sides([side], [*INTENSITY, *RESULT, *SOME]) if name in known] for side in self.sides}
 
     def row(self, cells: Sequence[str]) -> tuple[Row, list[str]]:
@@ -195,7 +193,7 @@ class Reader:
         needed = [name for name in CASE if name != "gap_m" or row.get(FACTOR) is None]
         problems += [f"{name}: expected a value" for name in needed if row.get(name, "") is None]
         if not row["error"]:
-            needed = self.always(*(side for side in self.sides if self.is_there(side, row)))
+            needed = list(always([side for side in self.sides if self.is_there(side, row)] or self.sides))
             problems += [f"{name}: expected a value, or a reason in error" for name in needed if row.get(name, 0) is None]
         return row, problems
 

@@ -271,7 +271,8 @@ impl PeakFinder<'_> {
     /// Raises the peaks that have been noted over a part of a step.
     fn search_noted(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         let open = std::mem::take(&mut work.peaks.open);
-        work.peaks.has_moments = false;
+        // Those of the window at hand are worked out when they are first asked for.
+        work.buffers.moments.clear();
         for quantity in &open {
             if quantity.may_exceed(peaks) {
                 let known = peaks.values[quantity.place];

@@ -20,7 +20,8 @@ use std::cell::OnceCell;
 /// A node next to a turning point has at least this share of the value there.
 const NODES_NEARLY: f64 = 0.9;
 
-/// What the polynomial through the nodes is off by at most at a turning point, relative to its value: more than it ever is.
+/// What the polynomial through the nodes may be off by at a turning point, relative to its value, without one that counts being
+/// left out.
 const NODES_ERROR: f64 = 1e-3;
 
 /// A step in contact, or its first part.
@@ -89,7 +90,7 @@ impl PeakFinder<'_> {
         match part.step.dense() {
             Dense::Window(window, free) => {
                 let moments = &mut work.buffers.moments;
-                if !std::mem::replace(&mut work.peaks.has_moments, true) {
+                if moments.is_empty() {
                     window.set_moments(moments);
                 }
                 let (terms, order) = quantity.terms(free, None);

@@ -130,8 +130,6 @@ pub struct PeakRoom {
     pub within: FloorState,
     /// Those of which some quantity may exceed its peak.
     pub open_buildings: Vec<BuildingId>,
-    /// Whether the contact forces of the window at hand and their moments are in the buffers.
-    pub has_moments: bool,
     /// What may exceed its peak within a step in contact.
     pub open: Vec<OpenQuantity>,
     /// Bounds on the magnitudes of the contact forces over a step, N.
@@ -169,7 +167,6 @@ impl PeakRoom {
             floors: FloorRoom::new(lanes, buildings),
             within: FloorState::new(lanes, buildings),
             open_buildings: Vec::with_capacity(buildings),
-            has_moments: false,
             open: Vec::with_capacity(rows.blocks() * LANES),
             strongest: vec![0.0; pairs],
             first_forces: vec![0.0; pairs],
