@@ -19,7 +19,7 @@ mod solve;
 mod tables;
 
 pub(crate) use equation::{Equation, MOST_PAIRS, WindowWorkspace};
-pub(crate) use nodes::{AtNodes, Interpolant, NODES, NodeCount, Nodes, dot, nodes};
+pub(crate) use nodes::{AtNodes, Interpolant, NODES, NodeCount, Nodes, dot, interpolants, nodes};
 pub(crate) use rows::{combined, fours, product, row, value};
 pub(crate) use solve::{Ending, Frame, SolvedWindow};
 pub(crate) use tables::{Kernel, Map, POWERS, Tables};

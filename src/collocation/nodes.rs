@@ -148,6 +148,12 @@ impl Nodes {
     }
 }
 
+/// The polynomials through rows of values at the nodes of a rule.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub(crate) fn interpolants<const K: usize>(nodes: &Nodes, rows: [&AtNodes; K]) -> [Interpolant; K] {
+    rows.map(|row| nodes.interpolant(row))
+}
+
 /// (2 n + 1) / (n + 1) and n / (n + 1): P_(n+1) = rising z P_n - falling P_(n-1).
 const RECURRENCE: [(f64, f64); NODES] = {
     let (mut all, mut n) = ([(0.0, 0.0); NODES], 0);

@@ -2,7 +2,7 @@
 //! is part of one oscillation of the contact, and is no longer than a series of the fastest mode reaches, so that sixteen nodes
 //! tell every turning point.
 
-use crate::collocation::{AtNodes, Interpolant, MOST_PAIRS, Map, NODES, NodeCount, Nodes, nodes};
+use crate::collocation::{AtNodes, MOST_PAIRS, Map, NODES, NodeCount, interpolants, nodes};
 use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::peaks::PeakFinder;
@@ -63,7 +63,7 @@ impl PeakFinder<'_> {
     ) -> f64 {
         let Some((map, values)) = self.read_nodes(quantity, part, work) else { return known };
         let (of, curve) = (nodes(NodeCount::Sixteen), OnceCell::new());
-        let knot = |x: f64| curve.get_or_init(|| interpolant(of, &values)).knot(x);
+        let knot = |x: f64| curve.get_or_init(|| interpolants(of, [&values]))[0].knot(x);
         let mut peak = known;
         for sign in [1.0, -1.0] {
             // Next to an end a node is compared with the other one beside it alone.
@@ -180,10 +180,4 @@ impl PeakFinder<'_> {
         }
         quantity.of_motion(acceleration) + ground.acceleration
     }
-}
-
-/// The polynomial through values at nodes.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn interpolant(nodes: &Nodes, values: &AtNodes) -> Interpolant {
-    nodes.interpolant(values)
 }

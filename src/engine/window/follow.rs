@@ -1,6 +1,6 @@
 //! The course of a contact through a window.
 
-use crate::collocation::{AtNodes, Interpolant, NODES, Nodes as RuleNodes, SolvedWindow, Tables, nodes};
+use crate::collocation::{Interpolant, NODES, SolvedWindow, Tables, interpolants, nodes};
 use crate::engine::base::contact::Contact;
 use crate::engine::follow::{Course, NEARLY, Nodes, Reached};
 use crate::engine::window::solution::{Window, largest};
@@ -78,12 +78,6 @@ impl Course<NODES> for WindowCourse<'_> {
             contact.branch().is_damped() && largest(&force[self.place]) > NEARLY * contact.episode.peak_force,
         ]
     }
-}
-
-/// The polynomials through two rows of values.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn interpolants(nodes: &RuleNodes, rows: [&AtNodes; 2]) -> [Interpolant; 2] {
-    rows.map(|row| nodes.interpolant(row))
 }
 
 /// Penetration, rate and acceleration at x, where x passes by 1 in `per_x` seconds.
